@@ -110,13 +110,19 @@ void require_differentiable(const ContextEntry& entry, std::string_view what) {
                         "parameters of blocks that are computed from it, so name these"));
 }
 
+void require_width(const ContextEntry& entry, Index given, std::string_view name) {
+  const bool fills = given == 1 && entry.kind == ContextEntry::Kind::parameter;
+  if (fills || given == entry.size) return;
+  throw ModelError(text("'", name, "': expected ", entry.size, " values, found ", given,
+                        given == 1 ? text("; one entry is '", name, "[0]'") : std::string()));
+}
+
 void write_entry(Context& context, const ContextEntry& entry, std::span<const double> values,
                  std::string_view name) {
   using Kind = ContextEntry::Kind;
   detail::require_settable(entry.role, name);
   const auto given = static_cast<Index>(values.size());
-  if (given != 1 && given != entry.size)
-    throw ModelError(text("'", name, "': expected ", entry.size, " values, found ", given));
+  require_width(entry, given, name);
   for (Index i = 0; i < entry.size; ++i) {
     const double value = nth(values, given == 1 ? 0 : i);
     require_possible(value, entry.kind, name);

@@ -152,8 +152,7 @@ void Ensemble::vary(std::string_view name, std::vector<double> values, Index wid
   const ContextEntry entry = find_entry(base_.layout(), name);
   detail::require_settable(entry.role, name);
   require_new(name, entry);
-  if (width != 1 && width != entry.size)
-    throw ModelError(text("'", name, "': expected ", entry.size, " values, found ", width));
+  require_width(entry, width, name);
   const Index runs = static_cast<Index>(values.size()) / width;
   if (runs * width != static_cast<Index>(values.size()) || (!varied_.empty() && runs != size_)) {
     throw ModelError(text("'", name, "': expected ", width, " values for each of ", size_,

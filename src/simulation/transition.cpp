@@ -177,6 +177,20 @@ bool Transition::commit() {
   return entered_ = restarts_ = true;
 }
 
+void Transition::guards_after(std::span<const int> groups, double t, double* values) {
+  const auto swap = [&] {
+    std::swap_ranges(z_next_.begin(), z_next_.end(), machine_->z.begin());
+    std::swap(machine_->modes, modes_next_);
+  };
+  struct Back {
+    const decltype(swap)& again;
+    ~Back() { again(); }
+  };
+  swap();
+  const Back back{swap};
+  machine_->guards_of(groups, t, x_next_.data(), values);
+}
+
 void Transition::swap_with_before() {
   if (entered_) std::swap(machine_->modes, modes_before_);
   std::swap_ranges(y_minus_.begin(), y_minus_.end(), machine_->y.begin());

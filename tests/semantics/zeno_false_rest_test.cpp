@@ -172,3 +172,120 @@ TEST_CASE("4.2 two blocks come to rest at one instant, each by its own reset", "
   CHECK(results.context.continuous_state().isZero());
   CHECK(count(results.events, EventKind::zeno_enter) == 2);
 }
+
+namespace {
+
+/// A phase of rate f(t), from 1e6 to 2e6 per second in 50 us, of which the integral is 75. `Way`: how
+/// a turn is counted.
+enum class Way { wrap, level };
+
+Leaf swept(Way way) {
+  return Leaf("swept", [=](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.0}), .ode = [](const At& at) { return 1e6 + 2e10 * at.time; }});
+    l.declare_discrete_state(vec({0.0}));
+    l.declare_zero_crossing(
+        {.name = "turn",
+         .guard = [=](const At& at) { return at.x[0] - (way == Way::wrap ? 1.0 : at.z[0] + 1.0); },
+         .reset_map =
+             [=](const At& at, Next& next) {
+               if (way == Way::wrap) next.set_continuous_state({at.x[0] - 1.0});
+               next.set_discrete_state({at.z[0] + 1.0});
+             },
+         .direction = Direction::negative_then_non_negative});
+  });
+}
+
+}  // namespace
+
+TEST_CASE("4.2 firings that follow faster and faster, away from zero, are no rest", "[semantics]") {
+  const auto method = GENERATE(from_range(methods));
+  const auto way = GENERATE(Way::wrap, Way::level);
+  const Leaf leaf = swept(way);
+  const auto results = simulate(leaf, leaf.create_context(), {0.0, 49.9e-6},
+                                {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method});
+  INFO(method << ", " << (way == Way::wrap ? "wrap" : "level"));
+  CHECK(count(results.events, EventKind::zeno_enter) == 0);
+  CHECK(results.context.discrete_state()[0] == 74.0);  // 74.8 turns by then
+}
+
+TEST_CASE("4.2 a current that a clock switches on, up to a level that falls, is no rest",
+          "[semantics]") {
+  // i' = 7e6 A/s up to 2 + 3 exp(-k / 12) A, then -5e6 A/s until the next tick, 0.5 us after the last.
+  const auto method = GENERATE(from_range(methods));
+  constexpr double period = 5e-7;
+  const auto level = [](double k) { return 2.0 + 3.0 * std::exp(-k / 12.0); };
+  const Leaf leaf("buck", [&](Leaf& l) {
+    l.declare_default_mode(0);
+    l.declare_continuous_state(
+        {.initial = vec({1.0}), .ode = [](const At& at) { return at.mode == 1 ? 7e6 : -5e6; }});
+    l.declare_discrete_state(vec({0.0}));
+    l.declare_periodic_update(
+        [](const At& at, Next& next) {
+          next.set_discrete_state({at.z[0] + 1.0});
+          next.set_mode(1);
+        },
+        period);
+    l.declare_zero_crossing({.name = "off",
+                             .guard = [=](const At& at) { return at.x[0] - level(at.z[0] - 1.0); },
+                             .direction = Direction::negative_then_non_negative,
+                             .start_mode = 1,
+                             .end_mode = 0});
+  });
+  const auto results = simulate(leaf, leaf.create_context(), {0.0, 99.9 * period},
+                                {.rtol = 1e-9, .atol = 1e-11, .ode_solver_method = method});
+  double i = 1.0;
+  std::size_t offs = 0;
+  for (int k = 0; k < 100; ++k) {
+    const double rest = k < 99 ? period : 0.9 * period, up = (level(k) - i) / 7e6;
+    offs += up < rest;
+    i = up < rest ? level(k) - 5e6 * (rest - up) : i + 7e6 * rest;
+  }
+  INFO(method);
+  CHECK(count(results.events, EventKind::zeno_enter) == 0);
+  CHECK(results.events.times("off").size() == offs);
+  // 100 ticks of some roundings of 5e-5 s, at 7e6 A/s.
+  CHECK(std::abs(results.context.continuous_state()[0] - i) <
+        100.0 * 8.0 * eps * 5e-5 * 7e6 + 1e-9);
+}
+
+TEST_CASE("4.2 some short gaps after a long one are no series", "[semantics]") {
+  // A half-wave rectifier: the diode conducts while x' = u' needs a current, x' = -x / RC otherwise.
+  // Where it opens, the tolerance lets it close and open again, within 1e-7 s.
+  const auto method = GENERATE(from_range(methods));
+  for (const double w : {1.0785659124613982, 0.8168925926938857, 3.206742609305109}) {
+    for (const double rc : {2.36, 0.9, 0.075}) {
+      const auto u = [=](double t) { return std::sin(w * t) + 0.3 * std::sin(2.3 * w * t + 0.4); };
+      const auto du = [=](double t) {
+        return w * std::cos(w * t) + 0.69 * w * std::cos(2.3 * w * t + 0.4);
+      };
+      const Leaf leaf("rectifier", [&](Leaf& l) {
+        l.declare_default_mode(0);
+        l.declare_continuous_state({.initial = vec({0.2}), .ode = [=](const At& at) {
+                                      return at.mode == 1 ? du(at.time) : -at.x[0] / rc;
+                                    }});
+        const auto snap = [=](const At& at, Next& next) {
+          next.set_continuous_state({u(at.time)});
+        };
+        l.declare_zero_crossing({.name = "on",
+                                 .guard = [=](const At& at) { return u(at.time) - at.x[0]; },
+                                 .reset_map = snap,
+                                 .direction = Direction::negative_then_non_negative,
+                                 .start_mode = 0,
+                                 .end_mode = 1});
+        l.declare_zero_crossing({.name = "off",
+                                 .guard = [=](const At& at) { return du(at.time) + at.x[0] / rc; },
+                                 .reset_map = snap,
+                                 .direction = Direction::positive_then_non_positive,
+                                 .start_mode = 1,
+                                 .end_mode = 0});
+      });
+      for (const double rtol : {1e-4, 1e-6}) {
+        const auto results = simulate(leaf, leaf.create_context(), {0.0, 40.0 / w},
+                                      {.rtol = rtol, .ode_solver_method = method});
+        INFO(method << ", w " << w << ", rc " << rc << ", rtol " << rtol);
+        CHECK(count(results.events, EventKind::zeno_enter) == 0);
+      }
+    }
+  }
+}

@@ -35,6 +35,31 @@ TEST_CASE("equal, growing and wavering gaps never accumulate, however short", "[
   CHECK(!seen(1e-6, 0.0, {3e-7, 2e-7, 2e-7}).accumulates());
 }
 
+TEST_CASE("short gaps after a long one do not accumulate before they have one ratio", "[zeno]") {
+  CHECK(!seen(1e-6, 0.0, {2.1, 1.9, 1e-7}).accumulates());
+  CHECK(!seen(1e-6, 0.0, {5.0, 2e-8, 2e-12}).accumulates());
+  CHECK(seen(1e-6, 0.0, {5.0, 4e-8, 2e-8, 1e-8}).accumulates());
+  // The ratios 0.04 and 0.5, and in the other order; 0.2 and 0.5.
+  CHECK(!seen(1e-6, 0.0, {1e-6, 0.04e-6, 0.02e-6}).accumulates());
+  CHECK(!seen(1e-6, 0.0, {1e-6, 0.5e-6, 0.02e-6}).accumulates());
+  CHECK(seen(1e-6, 0.0, {1e-6, 0.2e-6, 0.1e-6}).accumulates());
+}
+
+TEST_CASE("gaps that approach a length above zero do not accumulate", "[zeno]") {
+  const auto approach = [](double length, double q) {
+    std::vector<double> gaps;
+    for (int k = 0; k < 40; ++k) gaps.push_back(length + 1e-7 * std::pow(q, k));
+    return seen(1e-6, 0.0, gaps).accumulates();
+  };
+  CHECK(!approach(5e-7, 0.9));
+  CHECK(!approach(5e-7, 0.99));
+  CHECK(approach(0.0, 0.9));
+  // Slower than geometric: gaps that fall as 1 / k^2.
+  std::vector<double> gaps;
+  for (int k = 1; k < 100; ++k) gaps.push_back(1e-6 / (k * k));
+  CHECK(seen(1e-6, 0.0, gaps).accumulates());
+}
+
 TEST_CASE("gaps that shrink by rounding only do not accumulate", "[zeno]") {
   // At t = 1e3 s a time is rounded to 1e-13 s: a steady rhythm of 1e-7 s wavers by that.
   CHECK(!seen(1e-6, 1e3, {1e-7, 1e-7 - 1e-13, 1e-7 - 2e-13}).accumulates());

@@ -33,8 +33,12 @@ ContextEntry find_entry(const Layout& layout, std::string_view name);
 /// parameters that are computed from it.
 void require_differentiable(const ContextEntry& entry, std::string_view what);
 
-/// Writes `values` in place: as many as the entry has, or a single value that fills it. Throws
-/// ModelError for a wrong number of values, a value that is not finite, a mode that is not an
+/// Throws ModelError unless the entry takes so many values: as many as it has. One value fills a
+/// parameter, but not several states.
+void require_width(const ContextEntry& entry, Index given, std::string_view name);
+
+/// Writes `values` in place: as many as the entry has, or a single value that fills a parameter. Throws
+/// ModelError for a wrong number of values, for one value of several states, a value that is not finite, a mode that is not an
 /// integer, and a parameter that is computed from those of a diagram.
 void write_entry(Context& context, const ContextEntry& entry, std::span<const double> values,
                  std::string_view name);

@@ -21,6 +21,7 @@ class Holds {
     int leaf = -1, source = -1;
     Index entry = 0;
     OnZeno on_zeno = {};
+    std::vector<int> groups = {};         ///< the guards whose firings it watches
     std::span<const Index> of_plan = {};  ///< entries of x that rest, by what the plan knows
     std::span<const Index> states = {};   ///< those of this run: of an earlier one, if it goes on
     std::vector<Index> earlier = {};      ///< room for `states`
@@ -70,6 +71,8 @@ class Holds {
   std::span<const Index> whole(const PlanLeaf& leaf) const;
   std::span<const Index> choose(const PlanLeaf& leaf, const std::vector<int>& entries);
   bool steers(const ZeroCrossing& crossing, int leaf) const;
+  bool left_at_zero(const Hold& hold);
+  bool accumulates(const Hold& hold);
   ZenoMonitor& changing(Hold& hold);
   static std::span<const Index> states_of(const Hold& hold, const Continuation::Firings& saved);
   void load(Hold& hold, const Continuation::Firings& saved);
@@ -87,6 +90,7 @@ class Holds {
   std::deque<std::vector<Index>> chosen_;  // the states of guards that rest with a part of a leaf
   List<Hold> of_guards_, of_edges_;
   Eigen::VectorXd gathered_;    // the states of one hold
+  std::vector<double> values_;  // of all guards after a reset
   int count_ = 0;               // present holds
   std::vector<Hold*> changed_;  // in this instant
 };

@@ -130,6 +130,13 @@ inline constexpr double gap_roundings = 8.0;
 /// [1] Above this ratio of gaps, the ratio is computed over two gaps: a slow series amplifies the
 /// rounding of event times by 1 / (1 - q)^2. tests/unit/zeno_test.cpp
 inline constexpr double slow_series = 0.9;
+/// [1] How much the ratio of two gaps may differ from the ratio before it, up or down. A series has
+/// nearly one ratio; some short gaps after a long one are none. tests/unit/zeno_test.cpp
+inline constexpr double same_ratio = 10.0;
+/// [1] How much the distance of the ratio q from 1 may change, if the change of one gap went on for all
+/// 1 / (1 - q) gaps that are left. Gaps that fall as k^-p with p > 1 have 1 / p; gaps that approach a
+/// length have this length by what they are longer. tests/unit/zeno_test.cpp
+inline constexpr double supported_change = 2.0;
 /// [1] The next firing may follow within this many of the last gaps. tests/unit/holds_test.cpp
 inline constexpr double next_gap = 1.2;
 

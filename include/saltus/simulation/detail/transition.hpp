@@ -2,6 +2,7 @@
 // together.
 #pragma once
 
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -75,6 +76,8 @@ class Transition {
   const Eigen::VectorXd& before() const noexcept { return x_minus_; }
   Eigen::VectorXd& next() noexcept { return x_next_; }
   const Eigen::VectorXd& next() const noexcept { return x_next_; }
+  /// Some groups of guards at the values to come. Signals of other blocks are the present ones.
+  void guards_after(std::span<const int> groups, double t, double* values);
   /// Exchanges the present modes with those before the last commit that changed any, and the present
   /// signals with those before the instant.
   void swap_with_before();

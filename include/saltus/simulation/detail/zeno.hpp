@@ -43,12 +43,24 @@ class ZenoMonitor {
   /// Whether the firings accumulate: the last gap is within the tolerance, and three gaps in a row
   /// shrink by more than the rounding of the event times and the tolerance of the method. A steady
   /// fast rhythm does not accumulate: a multistep method loses a part of its speed at each impact,
-  /// and its gaps shrink by a part of the tolerance.
+  /// and its gaps shrink by a part of the tolerance. Nor do some short gaps after a long one: the
+  /// ratio of the gaps is that of a series. Nor do gaps that approach a length above zero: their ratio
+  /// approaches 1, and the sum that it predicts grows faster than the firings come.
   bool accumulates() const {
     if (!(gap(0) <= tolerance_) || !std::isfinite(gap(2))) return false;
     const double error =
         thresholds::gap_roundings * thresholds::eps * std::abs(times_[0]) + rtol_ * gap(0);
-    return gap(1) - gap(0) > error && gap(2) - gap(1) > error;
+    if (!(gap(1) - gap(0) > error && gap(2) - gap(1) > error)) return false;
+    const double last = gap(0) / gap(1), before = gap(1) / gap(2);
+    return last <= thresholds::same_ratio * before && before <= thresholds::same_ratio * last &&
+           is_supported(last, before, error);
+  }
+
+  /// Whether the ratio of the gaps changes so slowly that it says something of all gaps that are left.
+  /// The error of the gaps does not count as a change.
+  bool is_supported(double last, double before, double error) const {
+    const double left = 1.0 - last, change = std::abs(last - before) - 4.0 * error / gap(0);
+    return change <= thresholds::supported_change * left * left;
   }
 
   /// q / (1 - q): the factor of the last gap, and of the last change of state.
