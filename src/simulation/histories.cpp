@@ -16,7 +16,7 @@ Histories::Histories(Machine& machine, const SimulatorOptions& options)
 void Histories::add(double from, double to, Integration& integration) {
   if (!(to > from)) return;
   for (const int leaf : machine_->plan().histories) append(leaf, from, to, integration);
-  changed_ = false;
+  changed_ = continues_ = false;
 }
 
 void Histories::append(int number, double from, double to, Integration& integration) {
@@ -36,7 +36,7 @@ void Histories::append(int number, double from, double to, Integration& integrat
             t, leaf.path);
       }
     };
-    history.append({from, to, changed_, rtol_, atol_, input},
+    history.append({from, to, changed_, rtol_, atol_, input, continues_},
                    VectorRef(machine_->z.data() + leaf.z, leaf.nz));
   }
 }

@@ -92,3 +92,25 @@ def test_series_of_the_past_are_refused():
 def test_delays_that_are_none(delay):
     with pytest.raises(saltus.ModelError, match="delay"):
         TransportDelay(delay)
+
+
+@pytest.mark.parametrize("method", ["dopri5", "dop853", "radau", "bdf", "adams", "auto"])
+@pytest.mark.parametrize("cut", [0.2, 0.72, 0.9, 1.5])
+def test_a_run_that_goes_on_at_a_jump_of_the_input(method, cut):
+    """The jump happened in the instant that ended the first run. The pulse has four edges in the
+    5.3 s that the integrator sees, so its area is 4 * 0.52.
+    """
+    builder = saltus.DiagramBuilder()
+    pulse = builder.add(Pulse(1.0, 1.3, 0.4, 0.2, name="pulse"))
+    delay = builder.add(TransportDelay(0.7, name="delay"))
+    area = builder.add(Integrator(0.0, name="area"))
+    builder.connect(pulse.output(), delay.input())
+    builder.connect(delay.output(), area.input())
+    diagram = builder.build()
+    options = {"ode_solver_method": method, "rtol": 1e-8, "atol": 1e-10}
+    whole = saltus.simulate(diagram, (0.0, 6.0), **options)
+    first = saltus.simulate(diagram, (0.0, cut), **options)
+    second = saltus.simulate(diagram, first.context, (cut, 6.0), **options)
+    assert len(first.events) + len(second.events) == len(whole.events)
+    # Lines: each of some 40 restarts makes a rounding of 6 s.
+    assert abs(second.context.continuous_state[0] - 4 * 0.52) < 40 * 6.0 * np.finfo(float).eps

@@ -17,6 +17,9 @@ struct AcceptedStep {
   double rtol, atol;   ///< tolerances of the run; the smallest if each state has its own
   /// Writes the input at a time within the step, as the dense output of the solver has it.
   const std::function<void(double t, std::span<double> u)>& input;
+  /// It is the first step of a run that continues another. The instant that ended that one may have
+  /// changed something.
+  bool continues = false;
 };
 
 /// A record that a leaf makes of an input, step by step, in its discrete state. It is part of the

@@ -116,7 +116,8 @@ def test_a_factory_takes_its_arguments_and_leaves_the_rest():
         (7, {}, "expected a dict of names"),
         ({1: [2.0]}, {}, "expected the name of a parameter"),
         ({"g": ["heavy"]}, {}, "'g': expected numbers, found 'heavy'"),
-        ({"x": [1.0], "x[0]": [2.0]}, {}, "are the same values"),
+        ({"x": [[1.0, 0.0]], "x[0]": [2.0]}, {}, "are the same values"),
+        ({"x": [1.0]}, {}, r"expected 2 values, found 1; one entry is 'x\[0\]'"),
     ],
 )
 def test_values_that_cannot_be_meant(ball, values, how, says):

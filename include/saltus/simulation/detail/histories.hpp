@@ -15,8 +15,9 @@ class Histories {
   Histories(Machine& machine, const SimulatorOptions& options);
 
   bool any() const noexcept { return !machine_->plan().histories.empty(); }
-  /// A run begins. If it continues another, nothing has changed since the last step of that.
-  void begin(bool continues) { changed_ = !continues; }
+  /// A run begins. If it continues another, that may have ended with an instant, which changed
+  /// something or not.
+  void begin(bool continues) { changed_ = !continues, continues_ = continues; }
   /// Something changed in an instant: the next step begins a new stretch.
   void changed() { changed_ = true; }
   /// [s] The latest time at which a step from `from` may end.
@@ -31,6 +32,7 @@ class Histories {
   double rtol_, atol_;
   double longest_step_ = std::numeric_limits<double>::infinity();
   bool changed_ = true;
+  bool continues_ = false;  // the next step is the first one after another run
 };
 
 }  // namespace saltus
