@@ -1,9 +1,23 @@
 // y follows u through a play.
 #include "saltus/library/backlash.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "saltus/library/detail/parameter_checks.hpp"
 
 namespace saltus {
+
+namespace {
+
+/// Where y rests from a turn on: some roundings inside of the play. At the very contact the guard of
+/// drive_up or drive_down would be a rounding on either side of zero, and one beyond it drives y.
+double rests_at(double u, double side, double width) {
+  const double inside = 8.0 * std::numeric_limits<double>::epsilon() * (std::abs(u) + width);
+  return u - side * (0.5 * width - inside);
+}
+
+}  // namespace
 
 /// z = (y while it rests; 1 while u drives y upward, -1 downward, 0 while y rests).
 Backlash::Backlash(std::string name, double width, const Options& options)
@@ -41,7 +55,7 @@ void Backlash::declare_turn(ParameterIndex width) {
                          .reset_map =
                              [width](const At& at, Next& next) {
                                next.set_discrete_state(
-                                   {at.u(0) - 0.5 * at.z[1] * at.p[width], 0.0});
+                                   {rests_at(at.u(0), at.z[1], at.p[width]), 0.0});
                              },
                          .direction = Direction::positive_then_non_positive,
                          .at_start = AtStart::fire,

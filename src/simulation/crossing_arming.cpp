@@ -57,6 +57,7 @@ struct CrossingArming::Ask {
   const Eigen::VectorXd& before() const { return arming->transition_->before(); }
 
   double slope() const { return flow().slope(*group, slot()); }
+  bool is_slope_sure() const { return flow().is_slope_sure(*group, slot()); }
   /// Whether the flight that ended here was too low to differ from rest: its height is within the
   /// error. The height of a parabola is its slope times a quarter of its time. The slope is bounded
   /// from above: a slope that is lost in its rounding is no reason to rest.

@@ -21,7 +21,8 @@ constexpr double eps = 1e-12;  // an error bound for the rows
 /// What a row says of the flow. Asking for anything else fails the test: it costs right-hand sides.
 struct Answers {
   std::optional<double> slope_ = {};
-  std::optional<bool> low = {}, back = {}, turns = {}, round = {}, stops = {}, still = {};
+  std::optional<bool> low = {}, back = {}, turns = {}, round = {}, stops = {}, still = {},
+                      sure = {};
 
   template <class T>
   static T said(const std::optional<T>& answer, const char* what) {
@@ -35,6 +36,7 @@ struct Answers {
   bool reset_turns() const { return said(turns, "another reset"); }
   bool turned_round(int) const { return said(round, "the flow of the mode before"); }
   bool stood_still() const { return said(still, "the flow before"); }
+  bool is_slope_sure() const { return said(sure, "whether the slope is sure"); }
 };
 
 const Arming waits_at(int side) { return {.phase = Phase::waiting, .side = side}; }
@@ -335,8 +337,13 @@ TEST_CASE("A guard whose mode was entered at its zero") {
       {"a hop lower than the tolerance: the slope decides",
        entered,
        {-1, eps},
-       {.slope_ = 1.0},
+       {.slope_ = 1.0, .sure = true},
        waits_at(1)},
+      {"a slope that may be rounding decides nothing",
+       entered,
+       {-1, eps},
+       {.slope_ = 1.0, .round = false, .still = false, .sure = false},
+       waits_at(-1)},
       {"headed off the surface", entered, {1, eps}, {.slope_ = 1.0}, waits_at(1)},
       {"leaves along the surface: at zero within the tolerance",
        entered,

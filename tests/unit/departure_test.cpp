@@ -2,6 +2,7 @@
 #include "saltus/simulation/detail/departure.hpp"
 
 #include <functional>
+#include <numbers>
 
 #include "support/leaves.hpp"
 
@@ -133,6 +134,29 @@ TEST_CASE("the slope of a guard that moves is exact, and that of a guard at rest
   CHECK_THAT(Chain({0.0, speed}, -9.81, height).slope(), WithinRel(speed, 1e-5));
   CHECK(Chain({0.0, 0.0}, -9.81, height).slope() == 0.0);
   CHECK(Chain({0.0, 0.0}, 9.81, height).slope(1e3) == 0.0);
+}
+
+namespace {
+
+/// Whether the slope of a guard g(x) at x = 0, with x' = 1, is sure. A look is 1e-8 ahead.
+bool is_sure(const std::function<double(double)>& g) {
+  Chain chain({0.0}, 1.0, [=](const At& at) { return g(at.x[0]); });
+  chain.departure.from(0.0, chain.machine.x, 10.0);
+  return chain.departure.is_slope_sure(chain.group(), 0);
+}
+
+}  // namespace
+
+TEST_CASE("a slope is sure above the rounding of the values of the guard", "[departure]") {
+  CHECK(is_sure([](double x) { return 0.1 * x; }));
+  CHECK(is_sure([](double x) { return -1e-30 * x; }));
+  CHECK(is_sure([](double x) { return x - 2e7 * x * x; }));  // a hop that ends after five looks
+  CHECK(
+      !is_sure([](double x) { return 1e7 * x * x * x; }));  // over half of the time it is a quarter
+  // A level that is taken off a number of its size: two last places of it are no slope.
+  CHECK(is_sure([](double x) { return (1.0 + x) - 1.0; }));
+  CHECK(!is_sure([](double x) { return (1.0 + 4.0 * eps * x / 1e-8) - 1.0; }));
+  CHECK(!is_sure([](double x) { return std::sin(x + std::numbers::pi / 2.0) - 1.0; }));
 }
 
 TEST_CASE("the slope along another flow is that of the other flow", "[departure]") {

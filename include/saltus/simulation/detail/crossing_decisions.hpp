@@ -211,10 +211,11 @@ Arming decide_fired(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
 ///     otherwise                                                   decide_at_zero
 ///
 /// A hop lower than the tolerance begins on one side, and the look ahead sees it end on the other.
-/// Therefore in a mode just entered the slope decides against the side.
+/// Therefore in a mode just entered the slope decides against the side, if it is sure.
 template <class Ask>
 Arming decide_crossing(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
-  if (guard.entered && !guard.fired && flow.side * ask.slope() < 0.0) flow.side = -flow.side;
+  if (guard.entered && !guard.fired && flow.side * ask.slope() < 0.0 && ask.is_slope_sure())
+    flow.side = -flow.side;
   const bool its_side = guard.either() ? flow.side != 0 : flow.side == firing_side(guard.direction);
   if (guard.entered && guard.effect && its_side && ask.turned_round(flow.side))
     return {.then = Arming::Then::fire, .from = -flow.side};

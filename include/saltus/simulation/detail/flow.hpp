@@ -33,6 +33,11 @@ class Flow {
     depart();
     return departure_.slope(group, slot);
   }
+  /// Whether that slope is above the rounding of the values of the guard.
+  bool is_slope_sure(const GuardGroup& group, Index slot) {
+    depart();
+    return departure_.is_slope_sure(group, slot);
+  }
   /// The rounding of a guard at the present state.
   double rounding(Index slot) {
     depart();

@@ -69,6 +69,12 @@ inline constexpr double speed_looks = 1e6;
 /// [of the difference of two slopes] The curvature that extrapolation leaves in the slope.
 /// tests/unit/departure_test.cpp
 inline constexpr double slope_noise = 1e-6;
+/// [of the slope] A slope over half of the time that differs by less agrees with it.
+/// tests/unit/departure_test.cpp
+inline constexpr double slope_agrees = 0.5;
+/// [of the fourth difference] The movement of a guard whose slope is sure: the difference has eight
+/// roundings of a value at random, the movement four. tests/unit/departure_test.cpp
+inline constexpr double above_noise = 10.0;
 /// [of the slope before a reset] A smaller slope is a stop, not a passage.
 /// tests/unit/crossing_decisions_test.cpp
 inline constexpr double stopped_slope = 1e-6;
