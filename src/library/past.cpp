@@ -166,9 +166,9 @@ bool PastWriter::has_kink(const AcceptedStep& step) const {
 }
 
 int PastWriter::level_at(const AcceptedStep& step, int echo) const {
-  if (step.continues && !step.after_instant)
-    return jumps(step) || has_kink(step) ? 0 : no_break;  // an instant ended the run before
-  if (!step.after_instant) return no_break;
+  if (!step.after_instant) {  // an instant may have ended the run before
+    return step.continues && (jumps(step) || has_kink(step)) ? 0 : no_break;
+  }
   const bool jumped = jumps(step);
   const bool kink = !jumped && echo > last_break_level && has_kink(step);
   return break_level(jumped, echo, kink);

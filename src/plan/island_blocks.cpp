@@ -30,11 +30,15 @@ List<char> read_nodes(const Plan& plan) {
   return read;
 }
 
+void mark_located(const Plan& plan, List<char>& leaves) {
+  for (const Node& node : plan.nodes)
+    if (node.located) leaves[node.leaf] = 1;
+}
+
 List<char> live_leaves(const Plan& plan) {
   List<char> live(plan.leaves.size(), 0);
   for (std::size_t i = 0; i < plan.leaves.size(); ++i) live[i] = has_state_or_event(plan.leaf(i));
-  for (const Node& node : plan.nodes)
-    if (node.located) live[node.leaf] = 1;
+  mark_located(plan, live);
   return live;
 }
 
@@ -44,8 +48,7 @@ List<char> joining_leaves(const Plan& plan, const List<char>& live) {
   List<char> joining = live;
   for (std::size_t i = 0; i < plan.leaves.size(); ++i)
     if (is_scheduled(plan.leaf(i))) joining[i] = 0;
-  for (const Node& node : plan.nodes)
-    if (node.located) joining[node.leaf] = 1;
+  mark_located(plan, joining);
   return joining;
 }
 

@@ -14,8 +14,8 @@ struct IslandBlocks {
   List<char> read;    ///< of each node: whether it is read or recorded
   List<char> live;    ///< of each leaf: it has a state or an event; a located boolean has events
   List<char> active;  ///< of each leaf: it is live, or is read or recorded, or feeds such a leaf
-  /// Of each leaf: neither it nor any block that it reads is live, but for sources whose events are
-  /// time events.
+  /// Of each leaf: each island that reads it has a copy. It is not live, or it is a source that has
+  /// time events only; and all blocks that it reads are copied.
   List<char> copied;
 };
 

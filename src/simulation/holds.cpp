@@ -203,9 +203,9 @@ Eigen::Ref<const Eigen::VectorXd> gather(std::span<const Index> entries, const I
 
 }  // namespace
 
-/// Whether the reset has left a guard of the hold at zero, by the tolerance of the run: one that is
-/// clearly off zero has never come to rest, however short and shrinking the gaps are (4.2). A guard
-/// that jumps, or that has no value there, does not tell.
+/// Whether the reset has left a guard of the hold at zero, within the tolerance of the run. If the
+/// guard is clearly off zero, nothing has come to rest, however short and shrinking the gaps are
+/// (4.2). The value of a guard that jumps, or that is not finite, says nothing about that.
 bool Holds::left_at_zero(const Hold& hold) {
   values_.resize(static_cast<std::size_t>(machine_->plan().look_slots));
   transition_->guards_after(hold.groups, present_->t, values_.data());

@@ -103,6 +103,7 @@ void IslandMerger::merge_trajectories() {
 void IslandMerger::merge_tangents() {
   tangents_.begin_end();
   for (std::size_t k = 0; k < parts_.size(); ++k) tangents_.finish(k, parts_[k].run->results());
+  tangents_.end();
 }
 
 void IslandMerger::merge_rows(std::size_t k) {

@@ -117,7 +117,10 @@ void IslandTangents::finish(std::size_t k, const Results& from) {
   write_state(k, own.discrete_state, &PlanLeaf::z, &PlanLeaf::nz, out.discrete_state);
   for (const SensitivityGap& gap : own.gaps)
     if (gap.time > since_) out.gaps.push_back(gap);
-  std::ranges::stable_sort(out.gaps, {}, &SensitivityGap::time);
+}
+
+void IslandTangents::end() {
+  std::ranges::stable_sort(results_->sensitivities.gaps, {}, &SensitivityGap::time);
 }
 
 /// The leaves of an island follow each other in its own state as they do in the list. An island that

@@ -56,11 +56,12 @@ void Outcomes::take(Index number, const Results& results) {
   std::ranges::copy(
       results.context.modes(),
       modes.begin() + static_cast<std::ptrdiff_t>(run * results.context.modes().size()));
-  // a run that failed has rows, but none of its end
-  if (times.empty() && results.status == Status::failed) return;
+  // a run that failed has rows, but none of its end; one that could not begin has no signals
+  if (results.signals.empty() || (times.empty() && results.status == Status::failed)) return;
   for (std::size_t i = 0; i < signals.size(); ++i) {
-    const std::vector<double>& rows = results.time_of(signals[i].name);
-    if (!rows.empty()) take_signal(signals[i], results.signals[i], run, rows);
+    const RecordedSignal& signal = results.signals[i];
+    const std::vector<double>& rows = results.time_of(signal);
+    if (!rows.empty()) take_signal(signals[i], signal, run, rows);
   }
 }
 

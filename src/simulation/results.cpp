@@ -17,8 +17,11 @@ Eigen::Map<const RecordedSignal::Matrix> Results::output(std::string_view name) 
 }
 
 const std::vector<double>& Results::time_of(std::string_view name) const {
-  const int island = signal(name).island;
-  return island < 0 ? time : nth(islands, island).time;
+  return time_of(signal(name));
+}
+
+const std::vector<double>& Results::time_of(const RecordedSignal& signal) const {
+  return signal.island < 0 ? time : nth(islands, signal.island).time;
 }
 
 const std::vector<int>& Results::jump_of(std::string_view name) const {

@@ -92,6 +92,8 @@ struct Results {
   Eigen::Map<const RecordedSignal::Matrix> output(std::string_view name) const;
   /// [s] The times of the rows of a recorded signal: those of its island, or `time`.
   const std::vector<double>& time_of(std::string_view name) const;
+  /// The same for one of `signals`, without a search.
+  const std::vector<double>& time_of(const RecordedSignal& signal) const;
   /// j of the rows of a recorded signal: that of its island, or `jump`.
   const std::vector<int>& jump_of(std::string_view name) const;
 

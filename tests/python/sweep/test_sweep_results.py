@@ -7,6 +7,7 @@ import pytest
 import saltus
 from made import Ball, bounces, make_refusing, peak
 from saltus.errors import ModelError
+from saltus.library import Clock, Integrator, Saturate
 
 xarray = pytest.importorskip("xarray")
 GRID = {"e": [0.0, 0.5, 0.9], "x[0]": [5.0, 10.0]}
@@ -170,3 +171,35 @@ def test_what_is_no_system():
         saltus.sweep(Ball, {"e": [1.0]}, (0.0, 1.0), context=Ball().create_context())
     with pytest.raises(ModelError, match="expected a function that makes a system"):
         saltus.sweep(lambda e: 3, {"e": [1.0]}, (0.0, 1.0))
+
+
+@pytest.mark.parametrize("islands", [False, True])
+@pytest.mark.parametrize("times", [[], [0.5, 1.0]])
+def test_a_run_that_cannot_begin_is_a_row_with_its_reason(times, islands):
+    """Limits that cross are refused before the run; the other runs keep their values."""
+    builder = saltus.DiagramBuilder()
+    for name in ("one", "two"):
+        clock, limit, total = builder.add(
+            Clock(name=f"{name}_clock"),
+            Saturate(upper_limit=1.0, lower_limit=0.0, name=f"{name}_limit"),
+            Integrator(0.0, name=name),
+        )
+        builder.connect(clock.output(), limit.input())
+        builder.connect(limit.output(), total.input())
+        builder.export_output(total.output(), f"{name}_total")
+    found = saltus.sweep(
+        builder.build(),
+        {"one_limit.upper_limit": [1.0, -5.0, 2.0]},
+        (0.0, 1.0),
+        save_at=times,
+        islands=islands,
+        recorded_signals=["one_total", "two_total"],
+    )
+    assert [str(status) for status in found["status"].values] == [
+        "reached_end",
+        "failed",
+        "reached_end",
+    ]
+    last = np.asarray(found["two_total"]).reshape(3, -1)[:, -1]
+    # The integral of t over 1 s, to rtol; the run that was refused has no rows.
+    assert np.isnan(last[1]) and np.abs(last[[0, 2]] - 0.5).max() < 1e-6

@@ -36,9 +36,11 @@ class IslandTangents {
   };
   void add_rows(std::size_t k, const Results& from, const Rows& rows);
   void add_event(std::size_t k, const Results& from, std::size_t event);
-  /// The final state, and the gaps, of all islands begin anew; `finish` adds those of island k.
+  /// The final state, and the gaps, of all islands begin anew; `finish` adds those of island k, and
+  /// `end` puts the gaps in order.
   void begin_end();
   void finish(std::size_t k, const Results& from);
+  void end();
 
  private:
   bool empty() const { return parameters_.empty(); }
