@@ -157,6 +157,9 @@ TEST_CASE("a slope is sure above the rounding of the values of the guard", "[dep
   CHECK(is_sure([](double x) { return (1.0 + x) - 1.0; }));
   CHECK(!is_sure([](double x) { return (1.0 + 4.0 * eps * x / 1e-8) - 1.0; }));
   CHECK(!is_sure([](double x) { return std::sin(x + std::numbers::pi / 2.0) - 1.0; }));
+  // A parabola of a few roundings, 0, 0, 1, 3, 6, by any factor, is as flat at x = 0 as it looks.
+  for (double factor : {1.0, 1.1, -1.0 / 3.0})
+    CHECK(!is_sure([=](double x) { return factor * ((1.0 + 6.4 * eps * x * x / 1e-16) - 1.0); }));
 }
 
 TEST_CASE("the slope along another flow is that of the other flow", "[departure]") {

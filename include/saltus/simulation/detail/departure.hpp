@@ -2,10 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
+#include <utility>
 
 #include "saltus/simulation/detail/flow_probe.hpp"
 #include "saltus/solver/detail/guard.hpp"
@@ -73,14 +74,16 @@ class Departure : public FlowProbe {
   /// Whether the slope is that of the guard, and not of the rounding of its values, which is larger
   /// than what the states and the time explain where the terms of a guard cancel: the slope over half
   /// of the time agrees with it, and it is far above the fourth difference, which a smooth guard does
-  /// not have, and above the last place of the terms.
+  /// not have, and above the common measure of the values. Values that are a few roundings of the
+  /// terms have one, a rounding; those of a smooth guard at times without one have none.
   bool is_slope_sure(const GuardGroup& group, Index slot) {
     const double d = first_time(group), g0 = this->g0(slot);
     const double g1 = guard_after(0.25 * d, slot), g2 = guard_after(0.5 * d, slot),
                  g3 = guard_after(0.75 * d, slot), g4 = guard_after(d, slot);
     const double whole = 4.0 * (g2 - g0) - (g4 - g0), half = 8.0 * (g1 - g0) - 2.0 * (g2 - g0);
     const double noise = std::max(std::abs(g0 - 4.0 * g1 + 6.0 * g2 - 4.0 * g3 + g4),
-                                  std::min({last_place(g1), last_place(g2), last_place(g3)}));
+                                  common_measure({g1, g2, g3, g4, guard_after(0.41421 * d, slot),
+                                                  guard_after(0.61803 * d, slot)}));
     return whole * half > 0.0 &&
            std::abs(half - whole) < thresholds::slope_agrees * std::abs(whole) &&
            std::abs(whole) > thresholds::above_noise * noise;
@@ -130,13 +133,16 @@ class Departure : public FlowProbe {
   }
 
  private:
-  /// The last bit of a value that is set: where its terms cancel, that of the terms. 0 for no number.
-  static double last_place(double value) {
-    int exponent = 0;
-    const double fraction = std::frexp(value, &exponent);
-    if (!std::isfinite(value) || value == 0.0) return 0.0;
-    const auto bits = static_cast<std::uint64_t>(std::ldexp(std::abs(fraction), 53));
-    return std::ldexp(1.0, exponent - 53 + std::countr_zero(bits));
+  /// The largest number of which all values are whole multiples, by the algorithm of Euclid. If there
+  /// is none, a number is left that is negligible beside them.
+  static double common_measure(std::initializer_list<double> values) {
+    double measure = 0.0;
+    for (double value : values) {
+      const double negligible = thresholds::negligible_measure * std::max(measure, std::abs(value));
+      for (value = std::abs(value); value > negligible;)
+        measure = std::exchange(value, std::abs(std::remainder(measure, value)));
+    }
+    return measure;
   }
 
   /// The time of the first look for the guards of one group, from one departure.
