@@ -157,6 +157,10 @@ TEST_CASE("a slope is sure above the rounding of the values of the guard", "[dep
   CHECK(is_sure([](double x) { return (1.0 + x) - 1.0; }));
   CHECK(!is_sure([](double x) { return (1.0 + 4.0 * eps * x / 1e-8) - 1.0; }));
   CHECK(!is_sure([](double x) { return std::sin(x + std::numbers::pi / 2.0) - 1.0; }));
+  // Hops of every height that end after two to eight quarters of the look.
+  for (double size = 1e-20; size < 1e20; size *= 3.7)
+    for (double end = 0.5; end < 2.0; end += 0.0137)
+      CHECK(is_sure([=](double x) { return size * x * (1.0 - x / (end * 1e-8)); }));
   // A parabola of a few roundings, 0, 0, 1, 3, 6, by any factor, is as flat at x = 0 as it looks.
   for (double factor : {1.0, 1.1, -1.0 / 3.0})
     CHECK(!is_sure([=](double x) { return factor * ((1.0 + 6.4 * eps * x * x / 1e-16) - 1.0); }));

@@ -134,14 +134,14 @@ class Departure : public FlowProbe {
 
  private:
   /// The largest number of which all values are whole multiples, by the algorithm of Euclid. If there
-  /// is none, a number is left that is negligible beside them.
+  /// is none, a number is left that is nearly negligible beside them.
   static double common_measure(std::initializer_list<double> values) {
-    double measure = 0.0;
-    for (double value : values) {
-      const double negligible = thresholds::negligible_measure * std::max(measure, std::abs(value));
+    double largest = 0.0, measure = 0.0;
+    for (const double value : values) largest = std::max(largest, std::abs(value));
+    const double negligible = thresholds::negligible_measure * largest;
+    for (double value : values)
       for (value = std::abs(value); value > negligible;)
         measure = std::exchange(value, std::abs(std::remainder(measure, value)));
-    }
     return measure;
   }
 

@@ -75,7 +75,7 @@ inline constexpr double slope_agrees = 0.5;
 /// [of the fourth difference] The movement of a guard whose slope is sure: the difference has eight
 /// roundings of a value at random, the movement four. tests/unit/departure_test.cpp
 inline constexpr double above_noise = 10.0;
-/// [of a value of a guard] A remainder that is smaller is none: a few roundings of the value would be.
+/// [of the largest value] A smaller remainder is none: it may be a few roundings of the values.
 /// tests/unit/departure_test.cpp
 inline constexpr double negligible_measure = 1e-9;
 /// [of the slope before a reset] A smaller slope is a stop, not a passage.
