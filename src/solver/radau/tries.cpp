@@ -57,9 +57,9 @@ bool RadauSolver::creep(double h) {
   for (int j = 0; j < step_.stages; ++j) step_.z.col(j) = scheme().c[j] * h * f0_;
   finish_stages(h);
   error_.set_size(in_tolerances(step_.end()));
-  if (!is_small(error_.size())) return false;
   machine_->derivative(t1_, x1_.data(), residual_.data());
-  if (!jumps(f0_, residual_)) return false;
+  if (!is_small(error_.size(), in_tolerances(h * residual_)) || !jumps(f0_, residual_))
+    return false;
   ++statistics_.steps;
   h_ = h, smooth_ = false;
   stages_.renew_jacobian();

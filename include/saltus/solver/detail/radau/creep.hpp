@@ -5,9 +5,12 @@
 
 namespace saltus::radau {
 
-/// Whether a step is so short that it may go along the derivative `f0` at its begin: `moved` is how
-/// far that takes the states [tolerances].
-inline bool is_small(double moved) { return moved <= tuning::small_move; }
+/// Whether a step is so short that it may go along the derivative at its begin: `first` and `last`
+/// are how far the derivatives at its begin and at its end would take the states [tolerances]. A
+/// quantity that rests at the begin, and turns on within a long step, moves by the second one.
+inline bool is_small(double first, double last) {
+  return first <= tuning::small_move && last <= tuning::small_move;
+}
 
 /// Whether the derivative jumps in such a step, from f0 to f1.
 template <class Vector>

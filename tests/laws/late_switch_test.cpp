@@ -1,0 +1,66 @@
+// A quantity that rests until a term turns on: no method steps over the change, however long its
+// steps have grown. x' = r s (1 - x), with s = 1 / (1 + exp(-k (t - 5))), from x(0) = 1/2, is
+// 1 - x = (1 + exp(k (t - 5)))^(-r / k) / 2, but for exp(-5 k).
+#include <cmath>
+#include <random>
+
+#include "support/leaves.hpp"
+
+using namespace saltus;
+using namespace support;
+
+namespace {
+
+constexpr Method every_method[] = {Method::dopri5, Method::dop853, Method::radau,
+                                   Method::bdf,    Method::adams,  Method::automatic};
+
+struct TurnedOn {
+  double r, k, end;  // [1/s], [1/s], [s]
+
+  double at_end() const {
+    const double late = k * (end - 5.0);
+    return 1.0 - 0.5 * std::exp(-r / k * (late + std::log1p(std::exp(-late))));
+  }
+};
+
+/// x, and with `stiffness` [1/s] above 0 a state that is at rest soon, so that `auto` takes radau.
+Leaf rest(const TurnedOn& of, double stiffness) {
+  return Leaf("rest", [=](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({0.5, 0.0}), .ode = [=](const At& at, VectorRef rate) {
+           rate[0] = of.r / (1.0 + std::exp(-of.k * (at.time - 5.0))) * (1.0 - at.x[0]);
+           rate[1] = -stiffness * (at.x[1] - 1.0);
+         }});
+  });
+}
+
+}  // namespace
+
+TEST_CASE("a term that turns on within a long step is seen, by every method", "[laws]") {
+  std::mt19937 numbers(5);
+  const auto draw = [&](double from, double to) {
+    return std::uniform_real_distribution(from, to)(numbers);
+  };
+  for (int i = 0; i < 20; ++i) {
+    const TurnedOn of{draw(1.0, 10.0), draw(10.0, 60.0), draw(5.5, 20.0)};
+    for (const double stiffness : {0.0, 1e5}) {
+      const Leaf leaf = rest(of, stiffness);
+      for (const Method method : every_method) {
+        const bool stiff_too =
+            method == Method::automatic || method == Method::bdf || method == Method::radau;
+        if (stiffness > 0.0 && !stiff_too) continue;
+        for (const double rtol : {1e-3, 1e-6, 1e-9}) {
+          INFO(to_string(method) << ", r " << of.r << ", k " << of.k << ", to " << of.end
+                                 << " s, beside " << stiffness << " / s, rtol " << rtol);
+          const Results results =
+              simulate(leaf, leaf.create_context(), {0.0, of.end},
+                       {.rtol = rtol, .atol = 0.01 * rtol, .ode_solver_method = method});
+          const double error = results.context.continuous_state()[0] - of.at_end();
+          INFO(error / rtol << " tolerances");
+          // The flow contracts: the errors of the steps do not grow. Fifty of them may add up.
+          CHECK(std::abs(error) < 50.0 * rtol);
+        }
+      }
+    }
+  }
+}
