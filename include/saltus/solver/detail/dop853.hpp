@@ -139,6 +139,19 @@ struct Dop853 {
     const double sum = squares[0] + 0.01 * squares[1];
     return sum == 0.0 ? 0.0 : squares[0] / std::sqrt(sum);  // NaN stays NaN
   }
+
+  /// Whether the estimate e5 may have passed zero with h, which few states do together: then the
+  /// error says nothing. `corrected` decides.
+  static bool is_doubtful(double error, const std::array<double, 2>& squares) {
+    return error <= 1.0 && error < thresholds::coincident_estimate * std::sqrt(squares[1]);
+  }
+  /// With c h^k for the terms of the solution, e3 falls with h^4 and the error with h^8, as e3^2 / m
+  /// does, where `moved` m is how far the states move [tolerances].
+  static double corrected(double error, const std::array<double, 2>& squares, double moved) {
+    using namespace thresholds;
+    const double scale = squares[1] / moved;
+    return error < coincident_estimate * scale ? usual_estimate * scale : error;
+  }
 };
 
 }  // namespace saltus

@@ -111,8 +111,23 @@ class ExplicitStep {
                   std::make_index_sequence<estimates>{});
     });
     for (double& square : squares) square /= static_cast<double>(size());
-    const double found = Method::error(squares);
+    double found = Method::error(squares);
+    if constexpr (requires { Method::is_doubtful(found, squares); })
+      if (Method::is_doubtful(found, squares))
+        found = Method::corrected(found, squares, moved(h, tolerance));
     return std::isfinite(found) ? found : infinite;
+  }
+  /// How far the states move in the step, by its end or by the derivative at its begin: the root
+  /// mean square, in tolerances.
+  template <class Tolerance>
+  double moved(double h, const Tolerance& tolerance) const {
+    double square = 0.0;
+    for_lanes<W, N>(size(), [&](Index i) {
+      const Lane<W> x0 = load<W>(x0_ + i), x1 = load<W>(x1_ + i);
+      const Lane<W> way = larger(Lane<W>(x1 - x0), Lane<W>(h * load<W>(k_ + i)));
+      square += sum_of_squares(Lane<W>(way / tolerance(i, larger(x0, x1))));
+    });
+    return std::sqrt(square / static_cast<double>(size()));
   }
   template <std::size_t... M>
   void add_squares(double h, const Lane<W>& tolerance, const double* k,
