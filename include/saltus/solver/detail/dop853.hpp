@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "saltus/solver/detail/thresholds.hpp"
+
 namespace saltus {
 
 /// J. R. Dormand and P. J. Prince's method of order 8 in twelve stages, with the error estimates
