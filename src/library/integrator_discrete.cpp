@@ -42,6 +42,8 @@ struct IntegratorRule {
   }
   void add(const At& at, double part, VectorRef y) const {
     if (!hold || at.u(*hold) == 0.0) y += part * dt * at.u[0];
+  }
+  void limit(const At& at, VectorRef y) const {
     for (Index i = 0; i < y.size(); ++i) {
       if (lower) y[i] = std::max(y[i], detail::entry(at.parameter(*lower), i));
       if (upper) y[i] = std::min(y[i], detail::entry(at.parameter(*upper), i));
@@ -52,13 +54,14 @@ struct IntegratorRule {
       y = value ? at.u[*value] : at.parameter(initial);
     } else {
       y = s.head(y.size());
-      if (weight > 0.0 && !starts(s)) add(at, weight, y);
+      if (weight > 0.0 && !starts(s)) add(at, weight, y), limit(at, y);
     }
   }
   void next(const At& at, const VectorView& s, VectorRef next) const {
     const VectorRef y(next.data(), next.size() - 1);
     output(at, s, y);
     if (weight < 1.0) add(at, 1.0 - weight, y);
+    if (weight == 0.0) limit(at, y);  // else the output does, when the part of u[k] is known
     next[next.size() - 1] = trigger && at.u(*trigger) != 0.0 ? 1.0 : 0.0;
   }
 };

@@ -117,6 +117,23 @@ def test_a_reset_and_a_hold_are_read_at_ticks():
     assert y.tolist() == [0, 1, 10, 11, 12, 12]
 
 
+@pytest.mark.parametrize(
+    "method, weight", [("forward", 0.0), ("backward", 1.0), ("trapezoidal", 0.5)]
+)
+def test_a_limited_sum_is_limited_once_a_tick(method, weight):
+    """y[k] = y[k-1] + dt (w u[k] + (1 - w) u[k-1]), kept between -1 and 1.5; y[0] = 0."""
+    u = np.random.default_rng(2).choice([-1.0, -0.5, 0.5, 1.0], 60)
+    block = IntegratorDiscrete(
+        1.0, method=method, enable_limits=True, lower_limit=-1.0, upper_limit=1.5
+    )
+    source = DataSource(np.arange(60.0), u, interpolation="zero_order_hold")
+    expected = [0.0]
+    for before, now in itertools.pairwise(u):
+        step = weight * now + (1.0 - weight) * before
+        expected.append(min(max(expected[-1] + step, -1.0), 1.5))
+    assert response(block, source, t=np.arange(60) + 0.5).tolist() == expected
+
+
 def test_limits_do_not_wind_up():
     turn = Step(1.0, -1.0, step_time=3.0)
     block = IntegratorDiscrete(1.0, enable_limits=True, upper_limit=2.0)

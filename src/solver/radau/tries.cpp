@@ -57,9 +57,15 @@ bool RadauSolver::creep(double h) {
   for (int j = 0; j < step_.stages; ++j) step_.z.col(j) = scheme().c[j] * h * f0_;
   finish_stages(h);
   error_.set_size(in_tolerances(step_.end()));
-  machine_->derivative(t1_, x1_.data(), residual_.data());
-  if (!is_small(error_.size(), in_tolerances(h * residual_)) || !jumps(f0_, residual_))
-    return false;
+  if (!is_small(error_.size())) return false;
+  bool jumped = false;
+  for (int j = 0; j < step_.stages; ++j) {
+    scratch_ = x0_ + step_.z.col(j);
+    machine_->derivative(t0_ + scheme().c[j] * h, scratch_.data(), residual_.data());
+    if (!is_small(in_tolerances(h * residual_))) return false;
+    jumped = jumped || jumps(f0_, residual_);
+  }
+  if (!jumped) return false;
   ++statistics_.steps;
   h_ = h, smooth_ = false;
   stages_.renew_jacobian();

@@ -5,12 +5,10 @@
 
 namespace saltus::radau {
 
-/// Whether a step is so short that it may go along the derivative at its begin: `first` and `last`
-/// are how far the derivatives at its begin and at its end would take the states [tolerances]. A
-/// quantity that rests at the begin, and turns on within a long step, moves by the second one.
-inline bool is_small(double first, double last) {
-  return first <= tuning::small_move && last <= tuning::small_move;
-}
+/// Whether a step is so short that it may go along the derivative at its begin: `moved` is how far
+/// a derivative takes the states in it [tolerances]. That has to be so for the derivatives at all
+/// stages: those of a quantity that rests, and is turned on within a long step, are not all small.
+inline bool is_small(double moved) { return moved <= tuning::small_move; }
 
 /// Whether the derivative jumps in such a step, from f0 to f1.
 template <class Vector>
