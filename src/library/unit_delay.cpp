@@ -22,8 +22,10 @@ UnitDelay::UnitDelay(std::string name, double dt, const Options& options)
 }
 
 void UnitDelay::delayed(const At& at, VectorRef out) const {
-  const bool moved_on = dt_ == inherited_period || detail::last_tick(at.time, dt_) != at.z[0];
-  out = at.z.segment(moved_on ? 1 + n_ : 1, n_);
+  // Between ticks nothing moves on: a tick at which the block was not executed was none.
+  const bool moves_on = dt_ == inherited_period || (detail::is_tick(at.time, dt_) &&
+                                                    detail::last_tick(at.time, dt_) != at.z[0]);
+  out = at.z.segment(moves_on ? 1 + n_ : 1, n_);
 }
 
 void UnitDelay::sample(const At& at, Next& next) const {

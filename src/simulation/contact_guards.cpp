@@ -170,7 +170,10 @@ bool ContactGuards::follow_surface(SurfaceContact& contact) {
 
 void ContactGuards::load() {
   for (const std::size_t k : guards_->active().all) {
-    if (SurfaceContact* contact = contact_of(k)) arm(*contact, (*guards_)[k].error);
+    SurfaceContact* contact = contact_of(k);
+    if (contact == nullptr) continue;
+    contact->pressed_on = true;  // a block that rests was pressed on its surface
+    arm(*contact, (*guards_)[k].error);
   }
 }
 

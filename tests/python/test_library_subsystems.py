@@ -11,6 +11,8 @@ from saltus.library import (
     Comparator,
     Constant,
     ControlPort,
+    DataSource,
+    DelayN,
     EnabledSubsystem,
     Gain,
     Integrator,
@@ -296,3 +298,41 @@ def test_a_floor_that_moves_while_the_ball_on_it_is_not_enabled(method):
         )
         assert y[0] == pytest.approx([0.0, 0.0], abs=1e-4)
         assert y[2] == pytest.approx([expected, 0.0], abs=1e-4)
+
+
+def delayed_by_hand():
+    """(y, s) := (s, u) at ticks."""
+    block = saltus.LeafSystem(name="delay")
+    block.declare_input_port("in")
+    block.declare_discrete_state([-1.0, -1.0])
+    block.declare_output_port(
+        lambda t, s: s.discrete_state[0], name="out", requires_inputs=False, shape=()
+    )
+    block.declare_periodic_update(
+        lambda t, s, u: s.with_discrete_state(np.array([s.discrete_state[1], u])), period=0.5
+    )
+    return block
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        delayed_by_hand,
+        lambda: DelayN(0.5, 1, initial_state=-1.0),
+        lambda: UnitDelay(0.5, initial_state=-1.0),
+    ],
+)
+def test_ticks_of_a_part_that_is_not_enabled_are_none(make):
+    """The part is enabled but for 1.3 s to 3.6 s: five ticks are not executed, and its output at 3.6
+    s is that of the tick at 1 s, u(0.5) = 0.5."""
+    builder = saltus.DiagramBuilder()
+    part, clock = builder.add(EnabledSubsystem(make()), Clock())
+    control = builder.add(
+        DataSource([0.0, 1.3, 3.6], [1.0, 0.0, 1.0], interpolation="zero_order_hold")
+    )
+    builder.connect(clock.output(), part.input("in"))
+    builder.connect(control.output(), part.input("enable"))
+    builder.export_output(part.output(0), "y")
+    times = [0.25, 0.75, 1.25, 2.0, 3.55, 3.61, 3.95, 4.25, 4.75]
+    results = saltus.simulate(builder.build(), (0.0, 5.0), save_at=times, event_rows=False)
+    assert results["y"].tolist() == [-1.0, 0.0, 0.5, 0.5, 0.5, 0.5, 0.5, 1.0, 4.0]
