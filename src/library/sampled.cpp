@@ -15,20 +15,17 @@ void SampledSystem::declare_law(const Law& law) {
   z << -1.0, law.before.values, law.state;
   declare_discrete_state(z);
   const auto state = [=](const At& at) { return VectorView(at.z.data() + 1 + n, states); };
-  const auto last = [dt = law.dt, offset = law.offset](double t) {
-    return last_tick(t, dt, offset);
-  };
   const auto show = [=, output = law.output, dt = law.dt, offset = law.offset](const At& at,
                                                                                VectorRef out) {
-    const bool due = is_tick(at.time, dt, offset) && last(at.time) != at.z[0];
-    if (due)
+    if (is_due(at.time, at.z[0], dt, offset))
       output(at, state(at), out);
     else
       out = at.z.segment(1, n);
   };
-  const auto tick = [=, output = law.output, move = law.next](const At& at, Next& next) {
+  const auto tick = [=, output = law.output, move = law.next, dt = law.dt, offset = law.offset](
+                        const At& at, Next& next) {
     Eigen::VectorXd now(1 + n + states);
-    now[0] = last(at.time);
+    now[0] = last_tick(at.time, dt, offset);
     // A run that begins at a tick of an earlier run, with a state changed by hand, has had this
     // tick.
     if (now[0] == at.z[0]) return;

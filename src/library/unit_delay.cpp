@@ -23,8 +23,7 @@ UnitDelay::UnitDelay(std::string name, double dt, const Options& options)
 
 void UnitDelay::delayed(const At& at, VectorRef out) const {
   // Between ticks nothing moves on: a tick at which the block was not executed was none.
-  const bool moves_on = dt_ == inherited_period || (detail::is_tick(at.time, dt_) &&
-                                                    detail::last_tick(at.time, dt_) != at.z[0]);
+  const bool moves_on = dt_ == inherited_period || detail::is_due(at.time, at.z[0], dt_);
   out = at.z.segment(moves_on ? 1 + n_ : 1, n_);
 }
 

@@ -1,9 +1,9 @@
 // A quantity that rests until a term turns on: no method steps over the change, however long its
-// steps have grown. x' = r s (1 - x), with s = 1 / (1 + exp(-k (t - 5))), from x(0) = 1/2, is
-// 1 - x = (1 + exp(k (t - 5)))^(-r / k) / 2, but for exp(-5 k).
+// steps have grown. The equation x' = r s (1 - x), with s = 1 / (1 + exp(-k (t - 5))) and x(0) = 1/2,
+// has the solution x = 1 - (1 + exp(k (t - 5)))^(-r / k) / 2. It neglects exp(-5 k), which s(0) is.
 #include <cmath>
-#include <random>
 
+#include "support/draw.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -37,10 +37,7 @@ Leaf rest(const TurnedOn& of, double stiffness) {
 }  // namespace
 
 TEST_CASE("a term that turns on within a long step is seen, by every method", "[laws]") {
-  std::mt19937 numbers(5);
-  const auto draw = [&](double from, double to) {
-    return std::uniform_real_distribution(from, to)(numbers);
-  };
+  Draw draw(5);
   for (int i = 0; i < 20; ++i) {
     const TurnedOn of{draw(1.0, 10.0), draw(10.0, 60.0), draw(5.5, 20.0)};
     for (const double stiffness : {0.0, 1e5}) {

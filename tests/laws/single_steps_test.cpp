@@ -2,8 +2,8 @@
 // with its length. tau x' = sin(w t) + b - x from x(0) = c is, with s = 1 / (1 + (w tau)^2),
 //   x = b + s (sin(w t) - w tau cos(w t)) + (c - b + s w tau) exp(-t / tau).
 #include <cmath>
-#include <random>
 
+#include "support/draw.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -32,10 +32,7 @@ struct ForcedLag {
 }  // namespace
 
 TEST_CASE("no length of the first step is taken because its error estimate is zero", "[laws]") {
-  std::mt19937 numbers(3);
-  const auto draw = [&](double from, double to) {
-    return std::uniform_real_distribution(from, to)(numbers);
-  };
+  Draw draw(3);
   for (int i = 0; i < 5000; ++i) {
     const ForcedLag lag{draw(0.2, 2.0), draw(0.5, 4.0), draw(-2.0, 2.0), draw(-2.0, 2.0)};
     const Leaf leaf = lag.leaf();

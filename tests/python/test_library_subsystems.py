@@ -323,8 +323,8 @@ def delayed_by_hand():
     ],
 )
 def test_ticks_of_a_part_that_is_not_enabled_are_none(make):
-    """The part is enabled but for 1.3 s to 3.6 s: five ticks are not executed, and its output at 3.6
-    s is that of the tick at 1 s, u(0.5) = 0.5."""
+    """The part is not enabled from 1.3 s to 3.6 s, so the five ticks in between are not executed. At
+    3.6 s its output is still that of the tick at 1 s, which is u(0.5) = 0.5."""
     builder = saltus.DiagramBuilder()
     part, clock = builder.add(EnabledSubsystem(make()), Clock())
     control = builder.add(

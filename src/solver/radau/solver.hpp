@@ -65,8 +65,8 @@ class RadauSolver final : public StepSolver<RadauSolver> {
   double retry_after_jump(double h);
   double retry_after_error(double error, double h, bool rejected, double t_stop);
   /// Takes the step along the derivative if that moves no state by a tolerance, nor does one at a
-  /// stage, and the derivative jumps: there Newton's iteration may not converge, however short the step is. Without steps a
-  /// solution that slides along a jump would not be noticed.
+  /// stage, and the derivative jumps: there Newton's iteration may not converge, however short the
+  /// step is. Without steps a solution that slides along a jump would not be noticed.
   bool creep(double h);
   /// The lengths of the next steps are then no trend of the error.
   void note_not_finite(double h);

@@ -26,4 +26,10 @@ inline bool is_tick(double time, double period, double offset = 0.0) {
   return k >= 0.0 && since(time, offset) - k * period <= 2.0 * lead;
 }
 
+/// Whether a tick is at `time` that was not executed: `executed` is the number of the last one that
+/// was.
+inline bool is_due(double time, double executed, double period, double offset = 0.0) {
+  return is_tick(time, period, offset) && last_tick(time, period, offset) != executed;
+}
+
 }  // namespace saltus::detail
