@@ -10,10 +10,11 @@ ControlPort::ControlPort(std::string name) : LeafSystem(std::move(name)) {
                         .true_at_zero = false,
                         .reads = Reads::inputs,
                         .formula = [](const auto& at, Index) { return at.u(0, 0); }});
-  declare_output_port(
-      {.name = "out", .reads = Reads::relations, .boolean = true, .formula = [=](const auto& at) {
-         return at.relation(positive);
-       }});
+  declare_output_port({.name = "out",
+                       .reads = Reads::relations,
+                       .boolean = true,
+                       .controls_only = true,
+                       .formula = [=](const auto& at) { return at.relation(positive); }});
 }
 
 }  // namespace saltus

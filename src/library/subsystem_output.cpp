@@ -30,7 +30,7 @@ void SubsystemOutput::declare_enabled(const Shape& shape, bool resets) {
                        .formula = [](const auto& at, Index i) {
                          return at.choose(at.u(control, 0) != 0.0, at.u(in, i), at.z(i));
                        }});
-  if (!resets) hold_at(Edge::falling, "hold");
+  if (!resets) hold_at(Edge::falling, "hold", true);
 }
 
 void SubsystemOutput::declare_triggered(const Shape& shape, Edge edge) {
@@ -38,17 +38,20 @@ void SubsystemOutput::declare_triggered(const Shape& shape, Edge edge) {
                        .shape = shape,
                        .reads = Reads::discrete_state,
                        .view = Place{Space::z, 0, shape.size}});
-  hold_at(edge, "trigger");
+  hold_at(edge, "trigger", false);
 }
 
-void SubsystemOutput::hold_at(Edge edge, std::string event) {
+/// A falling control signal takes the input before the instant, because the part was executed until
+/// then. A trigger executes the part at the instant itself.
+void SubsystemOutput::hold_at(Edge edge, std::string event, bool before) {
   declare_edge_reset(
       {.name = std::move(event),
        .input = control,
        .edge = edge,
        .reset_map = [](const At& at, Next& next) { next.set_discrete_state(at.u[in]); },
        .zeno_tolerance = 0.0,  // it has no state that could rest
-       .inputs = std::vector{in}});
+       .inputs = std::vector{in},
+       .reads_before = before});
 }
 
 }  // namespace saltus

@@ -179,6 +179,7 @@ void add_edges(Plan& plan) {
                      .reads = read_inputs(resets[i].inputs, leaf),
                      .name = text(leaf.path, ".", resets[i].name)};
       edge.relations = search.located(edge.node);
+      plan.reads_before = plan.reads_before || resets[i].reads_before;
       plan.edges.push_back(std::move(edge));
     }
   }

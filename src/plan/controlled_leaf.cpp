@@ -1,14 +1,17 @@
 // ControlledLeaf: functions that ask for the control signal before they do anything.
 #include "controlled_leaf.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
 namespace saltus::detail {
 
-ControlledLeaf::ControlledLeaf(const PlanLeaf& leaf)
-    : system_(*leaf.system),
+ControlledLeaf::ControlledLeaf(const PlanLeaf& leaf, const std::vector<int>& gated)
+    : leaf_(leaf),
+      gated_(gated),
+      system_(*leaf.system),
       path_(leaf.path),
       declared_(leaf.declared()),
       own_(declared_.inputs.size()),
@@ -80,6 +83,23 @@ auto zero_unless(const LeafSystem& system, const Callback<void(const At&, Out)>&
 
 }  // namespace
 
+bool ControlledLeaf::is_gated(int node) const {
+  return std::ranges::find(gated_, node) != gated_.end();
+}
+
+/// The control signal of a part inside this one is false while this one is not executed. So the
+/// inner part is enabled while both signals are true, and this is what its edges see.
+void ControlledLeaf::gate_controls() {
+  for (std::size_t i = 0; i < declared_.outputs.size(); ++i) {
+    if (!is_gated(leaf_.outputs[i])) continue;
+    OutputDeclaration& output = declared_.outputs[i];
+    output.calc = zero_unless(system_, output.calc, control_);
+    output.formula = zero_unless(output.formula, output.calc, control_, 1);
+    output.inputs = with_control(has(output.reads, Reads::inputs) ? output.inputs : Named({}));
+    output.reads = output.reads | Reads::inputs;
+  }
+}
+
 void ControlledLeaf::rest_while_false() {
   ContinuousState& state = declared_.continuous;
   if (!state.ode) return;
@@ -106,8 +126,11 @@ ResetMap ControlledLeaf::while_true(const ResetMap& map) const {
   };
 }
 
+/// An edge of a gated signal is written: where it falls with this part, the part has been executed
+/// until then.
 void ControlledLeaf::write_while_true() {
   for (EdgeReset& reset : declared_.edge_resets) {
+    if (is_gated(leaf_.inputs[reset.input])) continue;
     reset.inputs = with_control(reset.inputs);
     reset.reset_map = while_true(reset.reset_map);
   }
@@ -159,6 +182,7 @@ void ControlledLeaf::require_interruptible() const {
 
 Declarations ControlledLeaf::enabled(bool resets) {
   require_interruptible();
+  gate_controls();
   rest_while_false();
   write_while_true();
   if (resets) reset_when_enabled();

@@ -11,7 +11,8 @@ namespace saltus::detail {
 /// Changes a copy of the declarations of a leaf. Its last input becomes the control signal.
 class ControlledLeaf {
  public:
-  explicit ControlledLeaf(const PlanLeaf& leaf);
+  /// `gated`: nodes that are control signals of enabled parts and nothing else, see gate_controls.
+  ControlledLeaf(const PlanLeaf& leaf, const std::vector<int>& gated);
 
   /// The leaf is executed while the control signal is true.
   Declarations enabled(bool resets);
@@ -24,6 +25,7 @@ class ControlledLeaf {
   /// Everything that reads all inputs reads the leaf's own inputs only.
   void keep_to_own_inputs();
   void keep_to_own_widths(OutputDeclaration& output) const;
+  void gate_controls();
   void rest_while_false();
   void write_while_true();
   void reset_when_enabled();
@@ -31,9 +33,12 @@ class ControlledLeaf {
   void require_updates_only() const;
   Named own_or(const Named& named) const { return named ? named : own_; }
   Named with_control(const Named& named) const;
+  bool is_gated(int node) const;
   ResetMap while_true(const ResetMap& map) const;
   [[noreturn]] void refuse(const std::string& what) const;
 
+  const PlanLeaf& leaf_;
+  const std::vector<int>& gated_;
   const LeafSystem& system_;
   std::string path_;
   Declarations declared_;

@@ -5,13 +5,34 @@
 
 namespace saltus::detail {
 
-void add_controls(Plan& plan, const Structure& structure, const LeafNumbers& numbers) {
+namespace {
+
+int source_of(const Plan& plan, const LeafNumbers& numbers, const LeafPort& control) {
+  return plan.leaf(numbers.find(control.leaf).value()).outputs[control.index];
+}
+
+/// The control signals of enabled parts that nothing else uses.
+std::vector<int> gated_signals(const Plan& plan, const Structure& structure,
+                               const LeafNumbers& numbers) {
+  std::vector<int> gated;
   for (const Structure::Controlled& part : structure.controlled) {
-    const int source =
-        plan.leaf(numbers.find(part.control.leaf).value()).outputs[part.control.index];
+    const int source = source_of(plan, numbers, part.control);
+    if (part.execution.kind == Execution::Kind::enabled &&
+        plan.output_of(plan.node(source)).controls_only)
+      gated.push_back(source);
+  }
+  return gated;
+}
+
+}  // namespace
+
+void add_controls(Plan& plan, const Structure& structure, const LeafNumbers& numbers) {
+  const std::vector<int> gated = gated_signals(plan, structure, numbers);
+  for (const Structure::Controlled& part : structure.controlled) {
+    const int source = source_of(plan, numbers, part.control);
     for (std::size_t i = part.first; i < part.last; ++i) {
       PlanLeaf& leaf = plan.leaves[i];
-      ControlledLeaf controlled(leaf);
+      ControlledLeaf controlled(leaf, gated);
       const bool enabled = part.execution.kind == Execution::Kind::enabled;
       leaf.declarations =
           std::make_shared<const Declarations>(enabled ? controlled.enabled(part.execution.resets)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "saltus/simulation/detail/contact_decisions.hpp"
 #include "saltus/simulation/detail/thresholds.hpp"
 
 namespace saltus {
@@ -239,7 +240,7 @@ void Contacts::rates(double t, const double* x, double* xdot) {
 
 void Contacts::lift(double t, const double* x, double* g) {
   for (const SurfaceContact& contact : all()) {
-    if (contact.carried) g[contact.slot] = lift(contact, t, x);
+    if (contact.carried) g[contact.slot] = guard_of_lift(lift(contact, t, x));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "saltus/simulation/detail/contact_decisions.hpp"
 
@@ -140,19 +141,25 @@ void ContactGuards::arm(SurfaceContact& contact, double error) {
     guards_->rest(k, contact.pressed, contact.error);
 }
 
+/// A contact begins. Returns whether its block was moved: it is put exactly at rest where the last reset
+/// left a flight too short to be seen.
+bool ContactGuards::place(SurfaceContact& contact) {
+  const double t = present_->t;
+  double* x = machine_->x.data();
+  contacts_.find_place(contact, t, x);
+  const bool placed =
+      transition_->wrote_x(group_of(contact.guard())) && contacts_.settle(contact, t, x);
+  present_->outcome.restart = present_->outcome.restart || placed;
+  contacts_.choose_look_ahead(contact, t, x, present_->longest);
+  return placed;
+}
+
 /// Finds out whether the contact is carried, and its lift. False if its flow leads off the surface.
 bool ContactGuards::follow_surface(SurfaceContact& contact) {
   using thresholds::kept_error;
   const double t = present_->t, longest = present_->longest;
   double* x = machine_->x.data();
-  bool placed = false;
-  if (contact.look_ahead == 0.0) {
-    contacts_.find_place(contact, t, x);
-    // Exactly at rest: the last reset left a flight too short to be seen.
-    placed = transition_->wrote_x(group_of(contact.guard())) && contacts_.settle(contact, t, x);
-    present_->outcome.restart = present_->outcome.restart || placed;
-    contacts_.choose_look_ahead(contact, t, x, longest);
-  }
+  const bool placed = contact.look_ahead == 0.0 && place(contact);
   const bool moves = contact.carried || contacts_.moves(contact, t, x, longest);
   if (moves) contact.carried = contacts_.settle(contact, t, x) && contacts_.follows(contact, t, x);
   if (placed) {
@@ -164,15 +171,37 @@ bool ContactGuards::follow_surface(SurfaceContact& contact) {
   const Pressure pressure = decide_pressure(contact.carried, contact.pressed_on, lift);
   contact.carried = pressure.carried, contact.pressed_on = pressure.pressed_on;
   if (pressure.lifts_off) present_->firings.push_back({contact.slot, Firing::lifts_off});
-  if (contact.carried) guards_->g[contact.slot] = lift;
+  if (contact.carried) guards_->g[contact.slot] = guard_of_lift(lift);
   return !pressure.lifts_off;
 }
 
-void ContactGuards::load() {
+void ContactGuards::save(std::vector<Continuation::Guard>& guards) const {
+  for (const SurfaceContact& contact : contacts_.all()) {
+    Continuation::Guard& guard = guards[contact.guard()];
+    guard.pressed_on = contact.pressed_on, guard.look_ahead = contact.look_ahead;
+  }
+}
+
+/// Takes over what an earlier piece of the run knew of a contact. The rest of a run decides how far the
+/// flow is looked ahead, so the lift may have another sign in this piece though nothing has turned:
+/// then the look ahead of the earlier piece is kept.
+void ContactGuards::take_over(SurfaceContact& contact, const Continuation::Guard& saved) {
+  contact.pressed_on = saved.pressed_on;
+  if (!saved.pressed_on || contact.members.empty()) return;
+  const auto leads_off = [&] {
+    return contacts_.lift(contact, present_->t, machine_->x.data()) > 0.0;
+  };
+  place(contact);
+  if (!leads_off()) return;
+  const double chosen = std::exchange(contact.look_ahead, saved.look_ahead);
+  if (leads_off()) contact.look_ahead = chosen;
+}
+
+void ContactGuards::load(const std::vector<Continuation::Guard>& guards) {
   for (const std::size_t k : guards_->active().all) {
     SurfaceContact* contact = contact_of(k);
     if (contact == nullptr) continue;
-    contact->pressed_on = true;  // a block that rests was pressed on its surface
+    take_over(*contact, guards[k]);
     arm(*contact, (*guards_)[k].error);
   }
 }

@@ -28,7 +28,8 @@ void Effects::run_update(const Action& action, int source) {
 /// The effect that the author of a zero crossing or an edge declared.
 Effects::Effect Effects::effect_of(const Action& action) {
   if (action.cause == Cause::edge)
-    return {&edges_->reset_of(action.index).reset_map, nullptr, &holds_->of_edge(action.index)};
+    return {&edges_->reset_of(action.index).reset_map, nullptr, &holds_->of_edge(action.index),
+            edges_->reset_of(action.index).reads_before};
   const ZeroCrossing& crossing = plan_->crossing_of(plan_->guards[action.index]);
   return {&crossing.reset_map, crossing.end_mode ? &*crossing.end_mode : nullptr,
           &holds_->of_guard(action.slot)};
@@ -49,8 +50,8 @@ void Effects::run_reset(const Action& action, int source) {
 /// Runs the reset map of an effect, and enters its mode. Returns whether it wrote a state or a
 /// mode.
 bool Effects::write(const Effect& effect, int leaf, const std::string& source) {
-  const bool wrote =
-      *effect.map && transition_->run({effect.map, leaf, effect.hold->entry, present_->t, source});
+  const bool wrote = *effect.map && transition_->run({effect.map, leaf, effect.hold->entry,
+                                                      present_->t, source, effect.reads_before});
   if (effect.end_mode) transition_->enter_mode(leaf, *effect.end_mode);
   return wrote || effect.end_mode != nullptr;
 }

@@ -11,6 +11,7 @@ namespace saltus {
 
 void Instant::open(double t, const std::vector<int>& due, double longest) {
   present_.open(t, longest);
+  if (plan().reads_before) machine_->evaluate_moving(t, machine_->x.data());
   transition_.open();
   journal_.open(t);
   flow_.open(t, longest);

@@ -3,6 +3,7 @@
 #include "saltus/simulation/detail/instant.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace saltus {
 
@@ -62,9 +63,11 @@ void Instant::select_guards() {
 }
 
 Continuation Instant::save() const {
+  std::vector<Continuation::Guard> guards = records_of(*guards_);
+  contacts_.save(guards);
   return {.jump = jump_,
           .relations = relations_.save(),
-          .guards = records_of(*guards_),
+          .guards = std::move(guards),
           .firings = holds_.save(),
           .edges = edges_.save(),
           .counts = journal_.save()};
@@ -89,7 +92,7 @@ void Instant::resume(double t, Recorder* recorder, const Continuation& from, dou
   if (!plan().guards.empty()) machine_->guards(t, machine_->x.data(), present_.g.data());
   load_records(*guards_, from.guards);
   guards_->g = present_.g;
-  contacts_.load();
+  contacts_.load(from.guards);
 }
 
 void Instant::undo() {
@@ -104,7 +107,7 @@ void Instant::undo() {
 }
 
 bool Instant::finds_roots() {
-  guards_->fired_at_root.clear();
+  guards_->fired_at_root = std::exchange(present_.firings, {});  // of contacts, see load
   for (const std::size_t k : guards_->active().all) {
     const Guard& guard = (*guards_)[k];
     if (guard.monitor || guard.phase != Phase::armed || !guard.crossed(guards_->g[k])) continue;

@@ -43,6 +43,7 @@ void Tangents::open(const Present& present, const std::vector<int>& due) {
   if (first) cause_.reset();
   if (first) columns_.t.setZero();
   columns_.x += f * (columns_.t - until.t);
+  if (machine_->plan().reads_before) inputs_before_.keep(*machine_, columns_, t_, probe_);
 }
 
 /// Takes one more cause of the instant. Where causes move apart, their order matters.
@@ -76,6 +77,7 @@ void Tangents::call(const Transition::Call& call, const double* x_next, const do
         z[i] = z_next[leaf.z + i] + shift * next_z_(leaf.z + i, k);
       At at = probe.at(call.leaf, call.t + shift * columns_.t[k], probe.x.data());
       at.entry = call.entry, at.mode = mode;
+      if (call.before) at.u = inputs_before_.moved(probe, call.leaf, k, shift);
       new (&at.x) VectorView(x.data(), leaf.nx);
       new (&at.z) VectorView(z.data(), leaf.nz);
       const VectorRef to_x(to, leaf.nx), to_z(to + leaf.nx, leaf.nz);

@@ -25,6 +25,7 @@ Transition::Transition(Machine& machine)
       y_minus_(machine.y.size()),
       x_next_(machine.x.size()),
       z_next_(machine.z.size()),
+      minus_{x_minus_.data(), z_minus_.data(), machine.p.data(), y_minus_.data()},
       effects_(machine.plan().leaves.size(), 0) {}
 
 void Transition::open() {
@@ -70,10 +71,17 @@ At Transition::seen(int leaf, Index entry, double t) {
   return at;
 }
 
+Inputs Transition::inputs_before(int leaf) {
+  minus_[static_cast<std::size_t>(Space::p)] = machine_->p.data();
+  const List<Place>& places = machine_->plan().leaf(leaf).input_places;
+  return {places.data(), static_cast<int>(places.size()), &minus_};
+}
+
 /// Runs a reset map, which writes to x, z and the mode.
 Transition::Wrote Transition::apply(const Call& call, VectorRef x, VectorRef z, int& mode) {
   const PlanLeaf& of = machine_->plan().leaf(call.leaf);
-  const At at = seen(call.leaf, call.entry, call.t);
+  At at = seen(call.leaf, call.entry, call.t);
+  if (call.before) at.u = inputs_before(call.leaf);
   Next next(x, z, mode, of.path);
   (*call.map)(*of.system, at, next);
   if (!is_finite(x) || !is_finite(z)) {

@@ -1,5 +1,6 @@
 """Enabled and triggered subsystems: time stands still in what is not executed."""
 
+import itertools
 import math
 
 import numpy as np
@@ -24,6 +25,7 @@ from saltus.library import (
     TransportDelay,
     TriggeredSubsystem,
     UnitDelay,
+    ZeroOrderHold,
 )
 
 PRECISE = {"rtol": 1e-10, "atol": 1e-12}
@@ -336,3 +338,138 @@ def test_ticks_of_a_part_that_is_not_enabled_are_none(make):
     times = [0.25, 0.75, 1.25, 2.0, 3.55, 3.61, 3.95, 4.25, 4.75]
     results = saltus.simulate(builder.build(), (0.0, 5.0), save_at=times, event_rows=False)
     assert results["y"].tolist() == [-1.0, 0.0, 0.5, 0.5, 0.5, 0.5, 0.5, 1.0, 4.0]
+
+
+# --- one enabled part inside another
+
+
+def nested(outer, inner, states, outputs):
+    """x' = 1 in an enabled part of an enabled part. `outer`, `inner`: times and values of the
+    control signals; `states`, `outputs`: the options of the outer and of the inner part."""
+    part = EnabledSubsystem(
+        Integrator(0.0, name="x"),
+        name="inner",
+        states=states[1],
+        outputs=outputs[1],
+        initial_outputs={"out": -1.0},
+    )
+    between = saltus.DiagramBuilder()
+    between.add(part)
+    between.export_input(part.input("enable"), "inner")
+    between.export_input(part.input("in"), "u")
+    between.export_output(part.output("out"), "y")
+    whole = EnabledSubsystem(
+        between.build("between"),
+        name="outer",
+        states=states[0],
+        outputs=outputs[0],
+        initial_outputs={"y": -2.0},
+    )
+    builder = saltus.DiagramBuilder()
+    one = Constant(1.0, name="one")
+    of_outer = DataSource(*outer, interpolation="zero_order_hold", name="of_outer")
+    of_inner = DataSource(*inner, interpolation="zero_order_hold", name="of_inner")
+    builder.add(whole, one, of_outer, of_inner)
+    builder.connect(one.output(), whole.input("u"))
+    builder.connect(of_inner.output(), whole.input("inner"))
+    builder.connect(of_outer.output(), whole.input("enable"))
+    builder.export_output(whole.output("y"), "y")
+    return builder.build()
+
+
+def expected_of_nested(outer, inner, states, outputs, times):
+    """The same by hand: the inner part is enabled while both signals are true."""
+    x, held, shown, before, seen = 0.0, -1.0, -2.0, (None, None), {}
+    last = 0.0
+    for t in np.unique(np.concatenate([outer[0], inner[0], times])):
+        if all(before):
+            x += t - last
+        last = t
+        first, second = (
+            bool(values[np.searchsorted(starts, t, side="right") - 1] > 0.0)
+            for starts, values in (outer, inner)
+        )
+        now = (first, first and second)
+        of_inner = x if before[1] else held  # before t
+        if before[1] and not now[1] and outputs[1] == "held":
+            held = x
+        if before[0] and not now[0] and outputs[0] == "held":
+            shown = of_inner
+        if before[1] is False and now[1] and states[1] == "reset":
+            x = 0.0
+        if before[0] is False and now[0] and states[0] == "reset":
+            x, held = 0.0, -1.0  # what the inner part holds is a state of the outer one
+        before = now
+        seen[t] = (x if now[1] else held) if now[0] else shown
+    return [seen[t] for t in times]
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+def test_an_inner_part_is_enabled_while_both_control_signals_are_true(python):
+    """160 drawn pairs of control signals, which change together now and then."""
+    draw = np.random.default_rng(5)
+    times = np.arange(0.1, 10.0, 0.25)  # no control signal changes there
+
+    def control():
+        changes = 0.25 * np.sort(draw.choice(np.arange(1, 40), 7, replace=False))
+        return np.concatenate([[0.0], changes]), draw.integers(0, 2, 8).astype(float)
+
+    for states in itertools.product(["held", "reset"], repeat=2):
+        for outputs in itertools.product(["held", "reset"], repeat=2):
+            for _ in range(10):
+                scene = control(), control(), states, outputs
+                results = saltus.simulate(
+                    nested(*scene), (0.0, 10.0), save_at=times, python=python
+                )
+                rows = np.searchsorted(results.time, times - 1e-9)
+                # x' = 1 is integrated to some roundings of 10 s
+                np.testing.assert_allclose(
+                    np.ravel(results["y"])[rows], expected_of_nested(*scene, times), atol=1e-12
+                )
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+@pytest.mark.parametrize(
+    "part, expected",
+    [(Gain(1.0, name="part"), 2.0), (ZeroOrderHold(1.0, name="part"), 2.0)],
+    ids=["gain", "hold"],
+)
+def test_a_part_holds_its_output_before_the_instant_at_which_it_is_disabled(part, expected, python):
+    """The input goes from 2 to 5 at 1 s, where the control signal falls."""
+    system = EnabledSubsystem(part, name="part_enabled")
+    control = DataSource([0.0, 1.0], [1.0, 0.0], interpolation="zero_order_hold", name="control")
+    signal = DataSource([0.0, 1.0], [2.0, 5.0], interpolation="zero_order_hold", name="signal")
+    builder = saltus.DiagramBuilder()
+    builder.add(system, control, signal)
+    builder.connect(signal.output(), system.input("in"))
+    builder.connect(control.output(), system.input("enable"))
+    builder.export_output(system.output("out"), "y")
+    results = saltus.simulate(builder.build(), (0.0, 2.0), python=python)
+    after = np.asarray(results.time) > 1.0
+    assert set(np.ravel(results["y"])[after]) == {expected}
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+def test_a_held_output_has_the_derivative_that_it_had_before_the_instant(python):
+    """x' = p in two enabled parts; both fall at 2 s: y = x(2) = 2 p from then on."""
+    level = saltus.LeafSystem(name="level")
+    level.declare_dynamic_parameter("p", 3.0)
+    level.declare_continuous_state(0.0, ode=lambda t, s, **p: p["p"])
+    level.declare_continuous_state_output(name="out")
+    inner = EnabledSubsystem(level, name="inner")
+    between = saltus.DiagramBuilder()
+    between.add(inner)
+    between.export_input(inner.input("enable"), "inner")
+    between.export_output(inner.output("out"), "y")
+    outer = EnabledSubsystem(between.build("between"), name="outer")
+    control = DataSource([0.0, 2.0], [1.0, 0.0], interpolation="zero_order_hold", name="control")
+    builder = saltus.DiagramBuilder()
+    builder.add(outer, control)
+    builder.connect(control.output(), outer.input("inner"))
+    builder.connect(control.output(), outer.input("enable"))
+    builder.export_output(outer.output("y"), "y")
+    system = builder.build()
+    results = saltus.simulate(system, (0.0, 3.0), sensitivity=["outer.between.inner.level.p"], python=python)
+    assert np.ravel(results["y"])[-1] == pytest.approx(6.0, abs=1e-9)
+    # by differences of a called function: 1e-10 of the values
+    assert np.ravel(results.sensitivities["y"])[-1] == pytest.approx(2.0, abs=1e-8)

@@ -41,9 +41,16 @@ TEST_CASE("A block lifts off where its flow pressed it on before, and leads off 
   const bool carried = GENERATE(false, true), pressed_on = GENERATE(false, true);
   const double size = GENERATE(1e-300, 1.0);
   CHECK(decide_pressure(carried, pressed_on, -size) == Pressure{carried, true, false});
-  CHECK(decide_pressure(carried, pressed_on, 0.0) == Pressure{false, pressed_on, false});
+  CHECK(decide_pressure(carried, pressed_on, 0.0) == Pressure{carried, pressed_on, false});
   CHECK(decide_pressure(carried, true, size) == Pressure{false, true, true});
   CHECK(decide_pressure(carried, false, size) == Pressure{false, false, false});
+}
+
+TEST_CASE("The guard of a carried block is below zero until its lift is above") {
+  CHECK(guard_of_lift(0.0) < 0.0);
+  CHECK(guard_of_lift(-0.0) < 0.0);
+  CHECK(guard_of_lift(5e-324) > 0.0);
+  CHECK(guard_of_lift(-1.0) == -1.0);
 }
 
 TEST_CASE("A guard that wavered once stays at rest at the same value, and leaves at ten times it") {

@@ -16,8 +16,7 @@ ZeroCrossing guard(bool called) {
 
 struct Parts {
   explicit Parts(bool called)
-      : leaf("leaf",
-             [=](Leaf& l) { declare_ramp(l), l.declare_zero_crossing(guard(called)); }),
+      : leaf("leaf", [=](Leaf& l) { declare_ramp(l), l.declare_zero_crossing(guard(called)); }),
         machine(compile(leaf)),
         guards(machine.plan()) {
     machine.load(leaf.create_context());

@@ -8,6 +8,7 @@
 using namespace saltus;
 using namespace library_test;
 using Catch::Matchers::WithinAbs;
+using support::Leaf, support::vec;
 
 namespace {
 
@@ -252,4 +253,59 @@ TEST_CASE("the plan says what is executed when", "[library]") {
   const Driven scene(enabled_subsystem("sub", part_of<Integrator>()), sine, one);
   CHECK(contains(compile(*scene.diagram)->describe(),
                  "block 'sub.part.block' is executed while 'sub.enable.out' is true"));
+}
+
+/// The inner control signal is the sine, the outer one is true before 2.5 pi and from 4.25 pi on: y rises to
+/// 3 pi / 2, rests, and from 4.25 pi on it goes on until 5 pi.
+TEST_CASE("a part inside a part is enabled while both control signals are true", "[library]") {
+  DiagramBuilder between;
+  const auto inner = shared(enabled_subsystem("inner", part_of<Integrator>()));
+  between.add(inner);
+  between.export_input(inner->input("in"), "in");
+  between.export_input(inner->input("enable"), "inner");
+  between.export_output(inner->output("out"), "out");
+  const auto outer = shared(enabled_subsystem("outer", shared(between.build("between"))));
+  DiagramBuilder builder;
+  builder.add(outer);
+  builder.connect(one(builder).output(), outer->input("in"));
+  builder.connect(sine(builder).output(), outer->input("inner"));
+  auto& control =
+      builder.add<DataSource>("control", vec({0.0, 2.5 * pi, 4.25 * pi}), vec({1.0, 0.0, 1.0}),
+                              DataSourceOptions{.interpolation = "zero_order_hold"});
+  builder.connect(control.output(), outer->input("enable"));
+  const Diagram diagram = builder.build();
+  const Numbers at{1.0, 4.0, 2.25 * pi, 3.0 * pi, 4.2 * pi, 4.5 * pi, 5.5 * pi, 6.0 * pi};
+  const Numbers expected{1.0, pi, 1.25 * pi, 1.5 * pi, 1.5 * pi, 1.75 * pi, 2.25 * pi, 2.25 * pi};
+  const std::vector<double> y = at_times(diagram, outer->output("out"), at, 0);
+  for (std::size_t i = 0; i < at.size(); ++i)
+    CHECK_THAT(y[i], WithinAbs(expected[i], solver_tolerance));
+}
+
+/// x' = p while the control signal is true, until 2 s: y = 2 p from then on. The input that jumps at 2 s
+/// is not in it.
+TEST_CASE("a held output has the derivative that it had before the instant", "[library]") {
+  const auto level = std::make_shared<Leaf>("level", [](Leaf& l) {
+    const int in = l.declare_input_port({.name = "in", .shape = Shape::scalar()});
+    const ParameterIndex p = l.declare_dynamic_parameter("p", 3.0);
+    l.declare_continuous_state({.initial = vec({0.0}), .ode = [=](const At& at, VectorRef dx) {
+                                  dx << at.parameter(p)[0];
+                                }});
+    l.declare_output_port(
+        {.name = "out", .calc = [=](const At& at, VectorRef y) { y << at.x[0] * at.u[in][0]; }});
+  });
+  const DataSourceOptions steps{.interpolation = "zero_order_hold"};
+  DiagramBuilder builder;
+  const auto part = shared(enabled_subsystem("part", level));
+  builder.add(part);
+  auto& factor = builder.add<DataSource>("factor", vec({0.0, 2.0}), vec({1.0, 5.0}), steps);
+  auto& control = builder.add<DataSource>("control", vec({0.0, 2.0}), vec({1.0, 0.0}), steps);
+  builder.connect(factor.output(), part->input("in"));
+  builder.connect(control.output(), part->input("enable"));
+  const Diagram diagram = builder.build();
+  const auto results =
+      simulate(diagram, diagram.create_context(), {0.0, 3.0}, {.sensitivity = {"part.level.p"}});
+  const Context& end = results.context;
+  CHECK_THAT(end.discrete_state()[0], WithinAbs(6.0, solver_tolerance));
+  // by differences, whose error is 1e-10 of the values
+  CHECK_THAT(results.sensitivities.discrete_state[0], WithinAbs(2.0, 1e-8));
 }

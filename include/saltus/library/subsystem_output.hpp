@@ -25,7 +25,7 @@ class SubsystemOutput final : public LeafSystem {
  private:
   void declare_enabled(const Shape& shape, bool resets);
   void declare_triggered(const Shape& shape, Edge edge);
-  void hold_at(Edge edge, std::string event);
+  void hold_at(Edge edge, std::string event, bool before);
 };
 
 }  // namespace saltus

@@ -18,6 +18,9 @@ struct Continuation {
   struct Guard {
     int side = 0, from = 0;
     bool at_zero = false, resting = false;
+    /// A block rests on it: whether the flow led into its surface, and how far it was looked ahead [s].
+    bool pressed_on = false;
+    double look_ahead = 0.0;
     double error = 0.0, base = 0.0;
     bool operator==(const Guard&) const = default;
   };

@@ -224,6 +224,8 @@ struct EdgeReset {
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the reset map reads; all if not
                                                 ///< given
   bool before_updates = false;  ///< it comes before the leaf's updates of the same instant
+  /// It reads its inputs as they were before the instant: their limits from the left.
+  bool reads_before = false;
 };
 
 /// An exact stop at `offset + k period`, k = 0, 1, ...; a single stop at `offset` if the period is

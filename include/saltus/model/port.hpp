@@ -72,6 +72,9 @@ struct OutputDeclaration {
   /// Feedthrough: the inputs it reads; all if not given.
   std::optional<std::vector<int>> inputs = {};
   bool boolean = false;  ///< 0 or 1; located by bisection and held if it reaches a derivative
+  /// It is the control signal of a part and nothing else: inside a part that is not executed it is
+  /// false.
+  bool controls_only = false;
   std::optional<Place> view = {};  ///< a state or parameter shown directly, never copied
   EntryRule entries = {};          ///< the entries of the inputs that each of its entries reads
   Formula formula = {};            ///< in place of calc: a plan may fuse it

@@ -145,6 +145,7 @@ struct Plan {
   std::vector<int> odes;  // leaves with a continuous state
   List<GuardGroup> guards;
   List<EdgeWatch> edges;
+  bool reads_before = false;  // some of their resets read the inputs before the instant
   List<ScheduledEvent> schedule;
   std::vector<Tap> taps;
   std::vector<int> histories;  // leaves that keep a history

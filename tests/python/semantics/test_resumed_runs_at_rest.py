@@ -8,8 +8,8 @@ from saltus.library import DataSource
 METHODS = ["dopri5", "dop853", "radau", "bdf", "adams", "auto"]
 
 
-def pressed_block(restitution):
-    """x' = v, v' = u, a wall at x = 0.5; u is 1 to 2 s, 0 to 3 s, then -1."""
+def pressed_block(restitution, times, forces, interpolation="linear"):
+    """x' = v, v' = u, a wall at x = 0.5; u is interpolated."""
     body = saltus.LeafSystem(name="body")
     body.declare_input_port("u")
     body.declare_continuous_state(
@@ -24,7 +24,7 @@ def pressed_block(restitution):
         direction="falling",
     )
     builder = saltus.DiagramBuilder()
-    force = DataSource([0.0, 2.0, 3.0], [1.0, 0.0, -1.0], interpolation="zero_order_hold")
+    force = DataSource(times, forces, interpolation=interpolation)
     builder.add(body, force)
     builder.connect(force.output(), body.input(0))
     return builder.build()
@@ -34,7 +34,7 @@ def pressed_block(restitution):
 @pytest.mark.parametrize("restitution", [0.0, 0.1])
 def test_a_block_without_a_force_is_let_go_where_the_run_was_cut_there(method, restitution):
     """At rest from 1.3 s at the latest; from 3 s on x = 0.5 - (t - 3)^2 / 2, so x(4) = 0."""
-    system = pressed_block(restitution)
+    system = pressed_block(restitution, [0.0, 2.0, 3.0], [1.0, 0.0, -1.0], "zero_order_hold")
     for cuts in [(), (1.5,), (2.5,), (2.2, 2.7), (2.0,), (3.0,), (2.999999999,)]:
         context, begin = system.create_context(), 0.0
         for end in (*cuts, 4.0):
@@ -43,3 +43,55 @@ def test_a_block_without_a_force_is_let_go_where_the_run_was_cut_there(method, r
         # the force is exact, and a quadratic is integrated to a few roundings; the event of the
         # force is exact too. Multistep methods begin with small steps of their tolerance, 1e-6.
         assert context.continuous_state[0] == pytest.approx(0.0, abs=1e-4), cuts
+
+
+# How long before or after its release a run is cut [s]: within the rounding of the time, of the
+# force, and of the place, and beyond all of them.
+BESIDE = [0.0, 1e-15, -1e-13, 1e-12, -1e-10, 1e-9, -1e-8, 1e-8, 1e-6, -1e-4, -1e-3, -0.1, -1.0]
+
+# u(t), which presses until 3 s, and where the block is 1.5 s later: 0.5 + the double integral of u
+FORCES = {
+    "linear": (lambda t: 3.0 - t, 0.5 - 1.5**3 / 6.0),
+    "cubic": (lambda t: -((t - 3.0) ** 3), 0.5 - 1.5**5 / 20.0),
+    "square": (lambda t: (3.0 - t) * abs(3.0 - t), 0.5 - 1.5**4 / 12.0),
+}
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("force", FORCES)
+@pytest.mark.parametrize("restitution", [0.0, 0.2])
+def test_a_block_is_let_go_by_a_force_that_turns_beside_the_cut(restitution, force, method):
+    push, place = FORCES[force]
+    body = saltus.LeafSystem(name="body")
+    body.declare_continuous_state(
+        [0.0, 1.0], ode=lambda t, s: np.array([s.continuous_state[1], push(t)])
+    )
+    body.declare_zero_crossing(
+        lambda t, s: 0.5 - s.continuous_state[0],
+        reset_map=lambda t, s: s.with_continuous_state(
+            np.array([0.5, -restitution * s.continuous_state[1]])
+        ),
+        name="wall",
+        direction="falling",
+    )
+    for cut in [None, *BESIDE]:
+        context, begin = body.create_context(), 0.0
+        for end in ([] if cut is None else [3.0 + cut]) + [4.5]:
+            results = saltus.simulate(body, context, (begin, end), ode_solver_method=method)
+            context, begin = results.context, end
+        # The tolerances are 1e-6, and the force of "square" has a kink in its derivative, where a
+        # step is taken through it: hundreds of tolerances.
+        assert context.continuous_state[0] == pytest.approx(place, abs=1e-3), cut
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("restitution", [0.0, 0.2])
+def test_a_block_is_let_go_after_a_pause_of_the_force(restitution, method):
+    """The force is 0 from 2 to 3 s, and 3 - t after that."""
+    for cut in [None, *BESIDE]:
+        system = pressed_block(restitution, [0.0, 1.5, 2.0, 3.0, 4.0], [1.0, 1.0, 0.0, 0.0, -1.0])
+        context, begin = system.create_context(), 0.0
+        for end in ([] if cut is None else [3.0 + cut]) + [4.0]:
+            results = saltus.simulate(system, context, (begin, end), ode_solver_method=method)
+            context, begin = results.context, end
+        assert context.continuous_state[0] == pytest.approx(0.5 - 1.0 / 6.0, abs=1e-3), cut

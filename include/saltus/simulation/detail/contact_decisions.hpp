@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "saltus/simulation/detail/thresholds.hpp"
 
@@ -52,11 +53,13 @@ Waking decide_waking(bool carried, double g, int pressed, const MayBeCarried& ma
 ///     carried   pressed on until now   lift        carried   pressed on   lifts off
 ///     yes       -                      negative    yes       yes          no
 ///     no        -                      negative    no        yes          no
-///     -         -                      zero        no        as before    no
+///     yes       -                      zero        yes       as before    no
+///     no        -                      zero        no        as before    no
 ///     -         yes                    positive    no        yes          yes
 ///     -         no                     positive    no        no           no
 ///
-/// Without a force the block stays where it is: a lift of zero changes nothing about the pressure.
+/// Without a force the block stays where it is: a lift of zero changes nothing about the pressure. A
+/// carried block is watched on, because the force may begin at any time.
 struct Pressure {
   bool carried = false;
   bool pressed_on = false;
@@ -66,7 +69,13 @@ struct Pressure {
 
 constexpr Pressure decide_pressure(bool carried, bool pressed_on, double lift) {
   const bool lifts_off = pressed_on && lift > 0.0;
-  return {carried && lift < 0.0, lift == 0.0 || lifts_off ? pressed_on : lift < 0.0, lifts_off};
+  return {carried && lift <= 0.0, lift == 0.0 || lifts_off ? pressed_on : lift < 0.0, lifts_off};
+}
+
+/// The value of the guard of a carried block. It fires where the lift rises above zero, not where it
+/// is zero.
+constexpr double guard_of_lift(double lift) {
+  return lift == 0.0 ? -std::numeric_limits<double>::min() : lift;
 }
 
 /// The error of a contact whose guard left it by rounding, and was `g` then.

@@ -33,6 +33,7 @@ class Effects {
     const ResetMap* map;
     const int* end_mode;  // null: none
     Holds::Hold* hold;
+    bool reads_before = false;
   };
 
   void run_update(const Action& action, int source);

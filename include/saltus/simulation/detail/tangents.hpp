@@ -8,6 +8,7 @@
 
 #include "saltus/model/context_entry.hpp"
 #include "saltus/simulation/detail/flow_jumps.hpp"
+#include "saltus/simulation/detail/inputs_before.hpp"
 #include "saltus/simulation/detail/integration.hpp"
 #include "saltus/simulation/detail/present.hpp"
 #include "saltus/simulation/detail/tangent_events.hpp"
@@ -101,6 +102,7 @@ class Tangents {
   std::optional<Variation> variation_;
   TangentColumns columns_;  // of the state between instants, then of the instant
   TangentColumns before_;   // at a fixed time before the instant
+  InputsBefore inputs_before_;
   OneSided one_sided_;
   TangentGaps gaps_;
   TangentEvents events_;

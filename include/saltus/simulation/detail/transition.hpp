@@ -39,6 +39,7 @@ class Transition {
     Index entry;              ///< which guard of a vector of guards
     double t;                 ///< [s]
     std::string_view source;  ///< "block.event", for errors
+    bool before = false;      ///< it reads its inputs as they were before the instant
   };
   /// Runs a reset map or an update of a leaf. It sees the values that the earlier ones of this pass
   /// wrote to the states and the mode of its leaf (3.2, 3.3). Returns whether it had an effect: it
@@ -87,12 +88,14 @@ class Transition {
     bool x, z;
   };
   At seen(int leaf, Index entry, double t);
+  Inputs inputs_before(int leaf);
   Wrote apply(const Call& call, VectorRef x, VectorRef z, int& mode);
   void count(int leaf, Wrote wrote);
 
   Machine* machine_;
   Tangents* tangents_ = nullptr;
   Eigen::VectorXd x_minus_, z_minus_, y_minus_, x_next_, z_next_;
+  Bases minus_;  // the values before the instant
   List<int> modes_next_, modes_before_;
   List<int> modes_minus_;    // before the instant, once a commit has changed a mode
   bool wrote_mode_ = false;  // in the last pass: modes_next_ may differ from the modes
