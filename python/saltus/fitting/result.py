@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from saltus import _core
+from saltus._same import same
 from saltus.errors import ModelError
 from saltus.fitting.plot import plot
 from saltus.fitting.text import as_html, as_text
@@ -35,6 +36,15 @@ class Compared(NamedTuple):
     model: np.ndarray
     residual: np.ndarray
     """(model - data) / sigma"""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, tuple) and same(tuple(self), tuple(other))
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __hash__(self) -> int:
+        return hash((self.experiment, self.name))
 
 
 class Start(NamedTuple):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, overload
 import numpy as np
 
 from saltus import _core
+from saltus._same import same
 from saltus.errors import ModelError
 from saltus.results.record import FIRINGS
 from saltus.results.tables import extra
@@ -26,7 +27,7 @@ KINDS = ["zero_crossing", "time", "zeno_enter", "zeno_release", "terminal", *QUE
 
 
 class Event(NamedTuple):
-    """One event of a run.
+    """One event of a run. Two events are equal if all their values are; nan is equal to nan here.
 
     Examples
     --------
@@ -68,9 +69,19 @@ class Event(NamedTuple):
         """[s] When the execution of a queued zero crossing is due; nan for any other event."""
         return self.predicted if self.kind in QUEUED else float("nan")
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, tuple) and same(tuple(self), tuple(other))
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __hash__(self) -> int:
+        return hash((self.jump, self.kind, self.block, self.name, self.entry))
+
 
 class EventLog(Sequence[Event]):
-    """Every event of a run, in order: a sequence of `Event`. A slice of it is a log again.
+    """Every event of a run, in order: a sequence of `Event`. A slice of it is a log again. Two logs
+    are equal if their events are.
 
     Examples
     --------
@@ -103,6 +114,12 @@ class EventLog(Sequence[Event]):
 
     def __iter__(self) -> Iterator[Event]:
         return (Event(*self._record.event(row)) for row in self._rows)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, EventLog) and same(tuple(self), tuple(other))
+
+    def __hash__(self) -> int:
+        return hash(tuple(self[:1]))
 
     def times(self, name: str | None = None, kind: str | None = None) -> np.ndarray:
         """The times of the events of one name and kind.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from copy import deepcopy
 from functools import cached_property
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -28,6 +29,10 @@ if TYPE_CHECKING:
     from saltus.results.islands import Island
 
 __all__ = ["Results"]
+
+
+SHARED = {"_core", "_engine", "_asks", "_known", "system", "events"}
+"""the attributes that a deep copy has in common with its original: nothing changes them"""
 
 
 class _Outputs(dict[str, np.ndarray]):
@@ -371,6 +376,22 @@ class Results(Pictures):
     def _kind(self) -> dict[str, Any]:
         """The entries of the file's header that say which class of results it holds."""
         return {"kind": "Results"}
+
+    def __copy__(self) -> Results:
+        made = object.__new__(type(self))
+        made.__dict__.update(self.__dict__)
+        return made
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Results:
+        made = self.__copy__()
+        memo[id(self)] = made
+        for name in ("outputs",) if self._core.apart else ("outputs", "time", "jump"):
+            getattr(made, name)  # the memory of the run, which is copied below
+        for name, value in vars(made).items():
+            # an exception of the user need not be one that can be copied; Saltus's refer to results
+            if name not in SHARED and (name != "cause" or isinstance(value, Error)):
+                made.__dict__[name] = deepcopy(value, memo)
+        return made
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Results, (KeptRun.of(self._core),), self._failure()
