@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from saltus import _core
-from saltus._same import same
 from saltus.errors import ModelError
 from saltus.fitting.plot import plot
 from saltus.fitting.text import as_html, as_text
 from saltus.results import Results
+from saltus.results.record import same
 from saltus.results.tables import extra
 
 if TYPE_CHECKING:

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple, overload
 import numpy as np
 
 from saltus import _core
-from saltus._same import same
 from saltus.errors import ModelError
-from saltus.results.record import FIRINGS
+from saltus.results.record import FIRINGS, same
 from saltus.results.tables import extra
 
 if TYPE_CHECKING:

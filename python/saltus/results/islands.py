@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NoReturn
 import numpy as np
 
 from saltus import _core
-from saltus._same import same
 from saltus.errors import ModelError
+from saltus.results.record import same
 from saltus.results.statistics import Statistics
 
 if TYPE_CHECKING:

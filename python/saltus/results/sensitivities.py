@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from saltus._core import known_names
-from saltus._same import same
 from saltus.errors import ModelError
+from saltus.results.record import same
 from saltus.results.tables import extra
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus._core import known_names
-from saltus._same import same
 from saltus.errors import ModelError
+from saltus.results.record import same
 
 if TYPE_CHECKING:
     from saltus.results.record import Record
