@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
-from saltus.errors import Error, ModelError
+from saltus.errors import Error, ModelError, SimulationError
 from saltus.results.events import EventLog
 from saltus.results.pictures import Pictures
 from saltus.results.record import KINDS, KeptRun, Record
@@ -68,10 +68,22 @@ class Results(Pictures):
     def __init__(self, core: Record, raised: BaseException | None = None, asks: Any = None):
         self._core = core
         self._asks = asks if core.dense else None  # the system whose outputs dense output calls
+        if core.status == "failed" and asks is not None:
+            self._explain(core, raised, asks)
         if raised is not None and core.status == "failed":
             self.cause = raised
             if not isinstance(raised, Error):  # the message of the run has no more information
                 self.message = f"t = {self._ended_at} s: {type(raised).__name__}: {raised}"
+
+    def _explain(self, core: Record, raised: BaseException | None, system: Any) -> None:
+        """Adds what the system knows to the message of the engine."""
+        from saltus.results.outside import explained
+
+        message = explained(core.message, core.block, core.context, system)
+        if message != core.message:
+            self.message = message
+            if isinstance(raised, SimulationError):
+                raised.args = (message,)
 
     @cached_property
     def time(self) -> np.ndarray:
