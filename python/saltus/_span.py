@@ -7,7 +7,10 @@ from typing import Any
 
 from saltus.errors import ModelError
 
-__all__ = ["require_within", "span_of"]
+__all__ = ["ROUNDING", "rows_within", "span_of"]
+
+ROUNDING = 1e-12
+"""the part of a time that sums and products of a few thousand steps may be wrong by"""
 
 
 def span_of(where: str, t_span: object, backward: bool = False) -> tuple[float, float]:
@@ -28,13 +31,21 @@ def span_of(where: str, t_span: object, backward: bool = False) -> tuple[float, 
     return begin, end
 
 
-def require_within(where: str, save_at: Sequence[float], span: tuple[float, float]) -> None:
-    """ModelError for times of rows before the begin of a run, or after its end."""
-    outside = [time for time in save_at if not span[0] <= time <= span[1]]
-    if outside:
-        shown = ", ".join(f"{time} s" for time in outside[:4])
-        more = f" and {len(outside) - 4} more" if len(outside) > 4 else ""
+def rows_within(where: str, save_at: Sequence[float], span: tuple[float, float]) -> Sequence[float]:
+    """The times of rows of a run. One that is beyond an end by rounding, as 19 * 0.1 is beyond 1.9,
+    is that end. ModelError for other times before the begin of the run, or after its end.
+    """
+    begin, end = span
+    outside = [time for time in save_at if not begin <= time <= end]
+    if not outside:
+        return save_at
+    near = ROUNDING * max(abs(begin), abs(end))
+    beyond = [time for time in outside if not begin - near <= time <= end + near]
+    if beyond:
+        shown = ", ".join(f"{time} s" for time in beyond[:4])
+        more = f" and {len(beyond) - 4} more" if len(beyond) > 4 else ""
         raise ModelError(
-            f"{where}: option save_at: expected times within the run, {span[0]} s to {span[1]} s, "
+            f"{where}: option save_at: expected times within the run, {begin} s to {end} s, "
             f"found {shown}{more}; leave them out, or make the run longer"
         )
+    return list(dict.fromkeys(float(min(max(time, begin), end)) for time in save_at))

@@ -61,6 +61,13 @@ def test_a_scene_file_has_the_place_of_the_time():
     assert (caught.value.line, caught.value.key) == (6, "run.save_at[1]")
 
 
+def test_a_time_of_a_file_that_is_beyond_the_end_by_rounding():
+    scene = loads(
+        FILE.format("['3 * 0.1', '10 * 0.1 + 1e-15']").replace("until", "event_rows = false\nuntil")
+    )
+    assert scene.simulate().time.tolist() == [3 * 0.1, 1.0]
+
+
 def test_times_at_the_ends_and_none_at_all(ball):
     whole = ball.simulate(save_at=[0.0, 12.0], event_rows=False)
     assert whole.time.tolist() == [0.0, 12.0]
@@ -87,3 +94,20 @@ def test_a_simulator_records_as_far_as_it_is_advanced(ball):
     assert simulator.results.time.tolist() == [0.5]
     simulator.advance_to(2.0)
     assert simulator.results.time.tolist()[-1] == 1.5
+
+
+def test_a_time_that_is_beyond_the_end_by_rounding_is_the_end():
+    scene = saltus.scene("bouncing-ball")
+    ticks = np.arange(20) * 0.1
+    assert ticks[-1] > 1.9
+    recorded = {"y": scene.system.output()}
+    for times in (ticks, [*ticks[:-1], 1.9, ticks[-1]]):
+        found = saltus.simulate(
+            scene.system, (0.0, 1.9), recorded_signals=recorded, save_at=times, event_rows=False
+        )
+        assert found.time.tolist() == [*ticks[:-1], 1.9]
+    swept = saltus.sweep(
+        scene.system, {"e": [0.5]}, (0.0, 1.9), recorded_signals=recorded, save_at=ticks
+    )
+    assert swept["time"].values[-1] == 1.9
+    assert np.isfinite(swept["y"].values).all()

@@ -12,7 +12,7 @@ import numpy as np
 
 from saltus import __version__
 from saltus._signals import port_of
-from saltus._span import require_within
+from saltus._span import rows_within
 from saltus._status import WELL
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.ensemble.columns import STATUS, Columns, empty, failed
@@ -59,7 +59,7 @@ class SceneRuns:
         overrides = self._overrides(scene)
         Simulator(scene.system, scene.options, **overrides)
         save_at = overrides.get("save_at", scene.options.save_at)
-        require_within("sweep", save_at, scene.required_span())
+        rows_within("sweep", save_at, scene.required_span())
 
     def run(
         self, values: Mapping[str, Column], threads: int = 1, watch: Watch | None = None

@@ -12,7 +12,7 @@ from saltus import _core
 from saltus._engine import core_options
 from saltus._porting import OPTIONS, refuse
 from saltus._signals import named
-from saltus._span import require_within, span_of
+from saltus._span import rows_within, span_of
 from saltus.ensemble.dataset import (
     refuse_reserved,
     summary,
@@ -213,5 +213,5 @@ def _job(
         raise ModelError(f"sweep: reduce: expected a function of a Results, found {reduce!r}")
     options, span = replace(options, recorded_signals=None), span_of("sweep", t_span)
     core_options(options)  # refuses times that are none
-    require_within("sweep", options.save_at, span)
+    options = replace(options, save_at=rows_within("sweep", options.save_at, span))
     return Job(system, context, span, options, signals, reduce)

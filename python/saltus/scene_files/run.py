@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from saltus._signals import port_of
+from saltus._span import ROUNDING
 from saltus.options import SimulatorOptions
 from saltus.ports import OutputPort
 from saltus.scene_files.functions import number_of, value_of
@@ -99,8 +100,9 @@ def _times(path: Path, value: Any, begin: float, until: float | None, values: An
     if isinstance(value, list):
         times = [number_of((*path, i), time, values) for i, time in enumerate(value)]
         end = math.inf if until is None else until
+        near = ROUNDING * max(abs(begin), 0.0 if until is None else abs(until))
         for i, time in enumerate(times):
-            if not begin <= time <= end:
+            if not begin - near <= time <= end + near:
                 raise Wrong(
                     (*path, i), f"expected a time from {begin:g} s to {end:g} s, found {time:g}"
                 )
