@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import html
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
 from saltus import _core
+from saltus._porting import missing
 from saltus.errors import ModelError
 from saltus.results.record import FIRINGS, same
 from saltus.results.tables import extra
@@ -23,6 +24,18 @@ __all__ = ["Event", "EventLog"]
 SHOWN = 20
 QUEUED = ("scheduled", "cancelled", "executed")
 KINDS = ["zero_crossing", "time", "zeno_enter", "zeno_release", "terminal", *QUEUED]
+
+
+OF_EVENT = {
+    "t": "it is event.time",
+    **dict.fromkeys(("x", "y", "state", "states"), "it is event.before and event.after"),
+}
+OF_LOG = {
+    **dict.fromkeys(("t", "time"), "the times are events.times('name')"),
+    **dict.fromkeys(("name", "names", "kind"), "each event has its own: events[0].name"),
+    **dict.fromkeys(("df", "to_dataframe"), "it is events.to_pandas()"),
+}
+"""names that are tried -> where it is here"""
 
 
 class Event(NamedTuple):
@@ -78,6 +91,10 @@ class Event(NamedTuple):
         return hash((self.jump, self.kind, self.block, self.name, self.entry))
 
 
+if not TYPE_CHECKING:  # a type checker knows the names that are there; a NamedTuple has no "if"
+    Event.__getattr__ = lambda self, name: missing(self, name, OF_EVENT)
+
+
 class EventLog(Sequence[Event]):
     """Every event of a run, in order: a sequence of `Event`. A slice of it is a log again. Two logs
     are equal if their events are.
@@ -113,6 +130,11 @@ class EventLog(Sequence[Event]):
 
     def __iter__(self) -> Iterator[Event]:
         return (Event(*self._record.event(row)) for row in self._rows)
+
+    if not TYPE_CHECKING:  # a type checker knows the names that are there
+
+        def __getattr__(self, name: str) -> Any:
+            return missing(self, name, OF_LOG)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, EventLog) and same(tuple(self), tuple(other))

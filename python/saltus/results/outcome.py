@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
+from saltus._porting import missing
 from saltus.errors import Error, ModelError, SimulationError
 from saltus.results.events import EventLog
 from saltus.results.pictures import Pictures
@@ -44,6 +45,29 @@ class _Outputs(dict[str, np.ndarray]):
         )
 
 
+STATE = "a recorded signal is results['name'], and the final state results.context.continuous_state"
+INSTEAD = {
+    **dict.fromkeys(("t", "ts", "times"), "the times of the rows are results.time"),
+    **dict.fromkeys(("x", "xs", "y", "ys", "state", "states", "continuous_state"), STATE),
+    **dict.fromkeys(
+        ("signals", "recorded_signals", "data"), "recorded signals are results.outputs"
+    ),
+    **dict.fromkeys(("df", "to_dataframe", "to_df", "dataframe"), "it is results.to_pandas()"),
+    **dict.fromkeys(("to_file", "write", "dump"), "results.save(path), or results.to_csv(path)"),
+    "keys": "the names of the recorded signals are list(results)",
+    "sol": "values at any time are results(t), with the option dense_output=True",
+    "success": "a run came to its end if results.status == 'reached_end'",
+    "t_events": "the times of an event are results.events.times('name')",
+    "y_events": "the states at an event are results.events[0].before and .after",
+    "nfev": "it is results.statistics.right_hand_side_calls",
+    "njev": "it is results.statistics.jacobian_calls",
+    "nlu": "it is results.statistics.linear_setups",
+    "final_context": "it is results.context",
+    "parameters": "they are those of results.context",
+}
+"""names of results in SciPy and similar tools -> where it is here"""
+
+
 class Results(Pictures):
     """The recorded signals, the event log, the final values, and the way the run ended.
 
@@ -74,6 +98,17 @@ class Results(Pictures):
             self.cause = raised
             if not isinstance(raised, Error):  # the message of the run has no more information
                 self.message = f"t = {self._ended_at} s: {type(raised).__name__}: {raised}"
+
+    if not TYPE_CHECKING:  # a type checker knows the names that are there
+
+        def __getattr__(self, name: str) -> Any:
+            if not name.startswith("_") and name in self._core.outputs:
+                return missing(self, name, {name: f"the recorded signal is results[{name!r}]"})
+            return missing(self, name, self._elsewhere())
+
+    def _elsewhere(self) -> dict[str, str]:
+        """Names that are tried, and where it is here."""
+        return INSTEAD
 
     def _explain(self, core: Record, raised: BaseException | None, system: Any) -> None:
         """Adds what the system knows to the message of the engine."""
