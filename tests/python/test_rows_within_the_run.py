@@ -6,9 +6,7 @@ import saltus
 from saltus.errors import ModelError, SceneError
 from saltus.scene_files import loads
 
-FILE = (
-    "version = 1\n[states]\ny = {{ start = 1.0, rate = '-y' }}\n[run]\nuntil = 1.0\nsave_at = {}\n"
-)
+FILE = "version = 1\n[states]\ny = {{ start = 1.0, rate = '-y' }}\n[outputs]\no = 'y'\n[run]\nuntil = 1.0\nsave_at = {}\n"
 OUTSIDE = [([0.5, 1.5], "1.5 s"), ([-0.5, 0.5], "-0.5 s"), ([2.0], "2.0 s"),
            (np.linspace(0.0, 7.0, 8), "2.0 s, 3.0 s, 4.0 s, 5.0 s and 2 more")]  # fmt: skip
 
@@ -58,7 +56,7 @@ def test_solve_says_it_of_t_eval(times):
 def test_a_scene_file_has_the_place_of_the_time():
     with pytest.raises(SceneError, match=r"expected a time from 0 s to 1 s, found 3") as caught:
         loads(FILE.format("[0.5, 3.0]"))
-    assert (caught.value.line, caught.value.key) == (6, "run.save_at[1]")
+    assert (caught.value.line, caught.value.key) == (8, "run.save_at[1]")
 
 
 def test_a_time_of_a_file_that_is_beyond_the_end_by_rounding():
