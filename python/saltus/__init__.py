@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from saltus import library, simulation
 from saltus._core import Context, State, __version__
+from saltus._core import known_names as _known_names
 from saltus.callbacks import ExplainedCallback, Explanation
 from saltus.compiled import Compiled, compiled
 from saltus.diagram import Diagram, DiagramBuilder
@@ -147,12 +148,10 @@ def __getattr__(name: str) -> Any:
 def _missing(name: str) -> AttributeError:
     said = f"module 'saltus' has no attribute {name!r}"
     if not name.startswith("_"):
-        from saltus._core import known_names
-
         if name in library.__all__:
             said += f"; it is saltus.library.{name}"
         else:
-            said += known_names(name, __all__)
+            said += _known_names(name, __all__)
     return AttributeError(said)
 
 

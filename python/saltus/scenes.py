@@ -18,7 +18,7 @@ from saltus.system import OutputPort, System, remember
 if TYPE_CHECKING:
     from saltus.scene_files import FileScene
 
-__all__ = ["Scene", "SharedSystem", "load_scene", "scene", "shelf"]
+__all__ = ["OF_SCENE", "Scene", "SharedSystem", "load_scene", "scene", "shelf"]
 
 
 class SharedSystem(System, _core.SharedSystem):

@@ -6,7 +6,15 @@ import saltus
 from saltus.errors import ModelError, SceneError
 from saltus.scene_files import loads
 
-FILE = "version = 1\n[states]\ny = {{ start = 1.0, rate = '-y' }}\n[outputs]\no = 'y'\n[run]\nuntil = 1.0\nsave_at = {}\n"
+FILE = """version = 1
+[states]
+y = {{ start = 1.0, rate = '-y' }}
+[outputs]
+o = 'y'
+[run]
+until = 1.0
+save_at = {}
+"""
 OUTSIDE = [([0.5, 1.5], "1.5 s"), ([-0.5, 0.5], "-0.5 s"), ([2.0], "2.0 s"),
            (np.linspace(0.0, 7.0, 8), "2.0 s, 3.0 s, 4.0 s, 5.0 s and 2 more")]  # fmt: skip
 

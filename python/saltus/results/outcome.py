@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from saltus.results.islands import Island
 
-__all__ = ["Results"]
+__all__ = ["INSTEAD", "Results"]
 
 
 SHARED = {"_core", "_engine", "_asks", "_known", "system", "events"}
