@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from saltus import library, simulation
 from saltus._core import Context, State, __version__
+from saltus._core import known_names as _known_names
 from saltus.callbacks import ExplainedCallback, Explanation
 from saltus.compiled import Compiled, compiled
 from saltus.diagram import Diagram, DiagramBuilder
@@ -134,7 +135,7 @@ the package itself
 
 def __getattr__(name: str) -> Any:
     if name not in _LATER:
-        raise AttributeError(f"module 'saltus' has no attribute {name!r}")
+        raise _missing(name)
     from importlib import import_module
 
     if name == _LATER[name]:
@@ -142,6 +143,16 @@ def __getattr__(name: str) -> Any:
     found = getattr(import_module(f"saltus.{_LATER[name]}"), name)
     globals()[name] = found
     return found
+
+
+def _missing(name: str) -> AttributeError:
+    said = f"module 'saltus' has no attribute {name!r}"
+    if not name.startswith("_"):
+        if name in library.__all__:
+            said += f"; it is saltus.library.{name}"
+        else:
+            said += _known_names(name, __all__)
+    return AttributeError(said)
 
 
 def __dir__() -> list[str]:

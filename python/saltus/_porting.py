@@ -14,7 +14,7 @@ from saltus._core import Diagram, known_names
 from saltus.errors import BlockParameterError, ModelError
 from saltus.parameter import given
 
-__all__ = ["OPTIONS", "is_reset", "refuse", "refusing"]
+__all__ = ["OPTIONS", "is_reset", "missing", "refuse", "refusing"]
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -66,6 +66,18 @@ def refuse(
         if name in hints:
             raise ModelError(f"{where}: no option '{name}': {hints[name]}")
         raise ModelError(f"{where}: unknown option '{name}'{known_names(name, known)}")
+
+
+def missing(owner: Any, name: str, instead: Mapping[str, str]) -> Any:
+    """Raises the AttributeError for a name that `owner` does not have, with what is there instead,
+    or with the nearest name. For `__getattr__`.
+    """
+    if hasattr(type(owner), name):  # a property raised the AttributeError, which says more
+        return object.__getattribute__(owner, name)
+    known = [each for each in dir(owner) if not each.startswith("_")]
+    hint = f"; {instead[name]}" if name in instead else known_names(name, known)
+    hint = "" if name.startswith("_") else hint
+    raise AttributeError(f"'{type(owner).__name__}' object has no attribute '{name}'{hint}")
 
 
 def refusing(method: Callable[P, R]) -> Callable[P, R]:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from saltus.errors import ModelError
 
-__all__ = ["span_of"]
+__all__ = ["ROUNDING", "rows_within", "span_of"]
+
+ROUNDING = 1e-12
+"""the part of a time that sums and products of a few thousand steps may be wrong by"""
 
 
 def span_of(where: str, t_span: object, backward: bool = False) -> tuple[float, float]:
@@ -25,3 +29,23 @@ def span_of(where: str, t_span: object, backward: bool = False) -> tuple[float, 
     if not (end >= begin or (backward and end < begin)):
         raise ModelError(f"{where}: expected a span with begin <= end, found {begin} s to {end} s")
     return begin, end
+
+
+def rows_within(where: str, save_at: Sequence[float], span: tuple[float, float]) -> Sequence[float]:
+    """The times of rows of a run. One that is beyond an end by rounding, as 19 * 0.1 is beyond 1.9,
+    is that end. ModelError for other times before the begin of the run, or after its end.
+    """
+    begin, end = span
+    outside = [time for time in save_at if not begin <= time <= end]
+    if not outside:
+        return save_at
+    near = ROUNDING * max(abs(begin), abs(end))
+    beyond = [time for time in outside if not begin - near <= time <= end + near]
+    if beyond:
+        shown = ", ".join(f"{time} s" for time in beyond[:4])
+        more = f" and {len(beyond) - 4} more" if len(beyond) > 4 else ""
+        raise ModelError(
+            f"{where}: option save_at: expected times within the run, {begin} s to {end} s, "
+            f"found {shown}{more}; leave them out, or make the run longer"
+        )
+    return list(dict.fromkeys(float(min(max(time, begin), end)) for time in save_at))

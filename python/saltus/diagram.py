@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from saltus import _core
-from saltus._porting import is_reset
+from saltus._porting import is_reset, missing
 from saltus._signals import block_of
 from saltus.errors import ModelError
 from saltus.parameter import Parameter
@@ -108,6 +108,16 @@ class Diagram(System, _core.Diagram):
         return self.create_context().parameters
 
 
+OF_BUILDER = {
+    **dict.fromkeys(("add_block", "add_system", "AddSystem"), "it is builder.add(block)"),
+    **dict.fromkeys(("Connect", "wire", "link"), "it is builder.connect(output, input)"),
+    **dict.fromkeys(("Build", "compile", "finish"), "it is builder.build()"),
+    **dict.fromkeys(("export", "ExportOutput"), "it is builder.export_output(port, name)"),
+    "ExportInput": "it is builder.export_input(port, name)",
+}
+"""names of a builder in similar tools -> those here"""
+
+
 class DiagramBuilder:
     """Collects blocks and wires. `build` uses it up.
 
@@ -133,6 +143,11 @@ class DiagramBuilder:
     def __init__(self) -> None:
         self._core = _core.DiagramBuilder()
         self._children: dict[str, System] = {}
+
+    if not TYPE_CHECKING:  # a type checker knows the names that are there
+
+        def __getattr__(self, name: str) -> Any:
+            return missing(self, name, OF_BUILDER)
 
     @overload
     def add(self, system: System, /) -> System: ...

@@ -107,8 +107,8 @@ class SimulatorOptions:
     "e", "ball.e", "x[0]"; see `Results.sensitivities`
     """
     save_at: Sequence[float] = ()
-    """[s] increasing times to record at. If there are any, solver steps are recorded only with
-    save_steps=True
+    """[s] increasing times within the run to record at. If there are any, solver steps are recorded
+    only with save_steps=True
     """
     save_steps: bool | None = None
     event_rows: bool = True

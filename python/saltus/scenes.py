@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from saltus import _core
 from saltus._engine import PYTHON_ONLY
+from saltus._porting import missing
 from saltus.errors import ModelError
 from saltus.results import Results
 from saltus.simulation import SimulatorOptions, simulate
@@ -17,7 +18,7 @@ from saltus.system import OutputPort, System, remember
 if TYPE_CHECKING:
     from saltus.scene_files import FileScene
 
-__all__ = ["Scene", "SharedSystem", "load_scene", "scene", "shelf"]
+__all__ = ["OF_SCENE", "Scene", "SharedSystem", "load_scene", "scene", "shelf"]
 
 
 class SharedSystem(System, _core.SharedSystem):
@@ -52,6 +53,13 @@ class SharedSystem(System, _core.SharedSystem):
     def blocks(self) -> tuple[SharedSystem, ...]:
         """The blocks of a diagram, in the order of `add`; none of a leaf."""
         return tuple(self[name] for name in self.block_names)
+
+
+OF_SCENE = {
+    **dict.fromkeys(("run", "solve", "sim"), "it is scene.simulate()"),
+    **dict.fromkeys(("params", "parameter"), "it is scene.parameters"),
+}
+"""names that are tried -> those here"""
 
 
 class Scene:
@@ -103,6 +111,11 @@ class Scene:
         self.methods = core.methods
         self.growth = core.growth
         self.invariants = core.invariants
+
+    if not TYPE_CHECKING:  # a type checker knows the names that are there
+
+        def __getattr__(self, name: str) -> Any:
+            return missing(self, name, OF_SCENE)
 
     def _options(self, core: _core.Scene) -> SimulatorOptions:
         same = {f.name for f in fields(SimulatorOptions)} - set(PYTHON_ONLY)

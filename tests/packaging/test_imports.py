@@ -49,6 +49,10 @@ LATE = {
     ("saltus.results.charts", "saltus.results.charts.signals_plotly"): "loads plotly",
     ("saltus.results.charts", "saltus.results.charts.zeno"): "loads matplotlib",
     ("saltus.results.outcome", "saltus.results.islands"): "rows of islands, which few runs have",
+    (
+        "saltus.results.outcome",
+        "saltus.results.outside",
+    ): "explains a failure, which most runs lack",
     ("saltus.results.outcome", "saltus.results.text"): "prints, which most runs do not",
     ("saltus.results.pictures", "saltus.results.animation"): "loads films",
     ("saltus.results.pictures", "saltus.results.charts"): "loads matplotlib",

@@ -58,7 +58,12 @@ class Chosen:
                 raise ModelError(f"{flag}: expected a finite time in seconds, found {time:g}")
         usual = self.span or (0.0, None)
         begin, end = usual[0] if begin is None else begin, usual[1] if end is None else end
-        return replace(self, span=None if end is None else (begin, end), scene=None)
+        if end is None:
+            return replace(self, span=None, scene=None)
+        # the rows that the scene asks for, as far as this run goes
+        rows = [time for time in self.options.save_at if begin <= time <= end]
+        options = replace(self.options, save_at=rows) if len(self.options.save_at) else self.options
+        return replace(self, span=(begin, end), scene=None, options=options)
 
     def required_span(self) -> tuple[float, float]:
         """The span; ModelError if neither the scene nor the command line has one."""

@@ -62,6 +62,17 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+FLAGS = {
+    "ode_solver_method": "--method",
+    "rtol": "--rtol",
+    "atol": "--atol",
+    "zeno_tolerance": "--zeno-tolerance",
+    "save_at": "--save-at",
+    "recorded_signals": "--record",
+}
+"""options that have a flag of their own"""
+
+
 def options_of(chosen: argparse.Namespace) -> dict[str, Any]:
     """The options that the command line gives, by the names of SimulatorOptions."""
     options: dict[str, Any] = {
@@ -74,7 +85,11 @@ def options_of(chosen: argparse.Namespace) -> dict[str, Any]:
         by_state = isinstance(chosen.rtol, list)
         options["atol"] = [r / 100.0 for r in chosen.rtol] if by_state else chosen.rtol / 100.0
     said = {name: value for name, value in options.items() if value is not None}
-    return said | settings_of(chosen.option, "--option")
+    more = settings_of(chosen.option, "--option")
+    for name, flag in FLAGS.items():
+        if name in more and getattr(chosen, flag[2:].replace("-", "_"), None) is not None:
+            raise ModelError(f"--option: '{name}' is set by {flag} too; leave out one of them")
+    return said | more
 
 
 def _tolerance(text: str) -> float | list[float]:

@@ -12,6 +12,7 @@ import numpy as np
 
 from saltus import __version__
 from saltus._signals import port_of
+from saltus._span import rows_within
 from saltus._status import WELL
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.ensemble.columns import STATUS, Columns, empty, failed
@@ -55,8 +56,10 @@ class SceneRuns:
     def check(self, row: Mapping[str, Any]) -> None:
         """Raises ModelError for unknown names, signals and options, before anything is run."""
         scene = self.chosen(row)
-        scene.required_span()
-        Simulator(scene.system, scene.options, **self._overrides(scene))
+        overrides = self._overrides(scene)
+        Simulator(scene.system, scene.options, **overrides)
+        save_at = overrides.get("save_at", scene.options.save_at)
+        rows_within("sweep", save_at, scene.required_span())
 
     def run(
         self, values: Mapping[str, Column], threads: int = 1, watch: Watch | None = None

@@ -71,6 +71,13 @@ def act(chosen: argparse.Namespace) -> int:
     varied = varied_of(chosen.vary)
     begin = {name: values[0] for name, values in varied.items()}
     first = chosen_scene(chosen.scene, settings | begin)
+    twice = settings.keys() & (varied or first.varied).keys()
+    if twice:
+        what = "--vary" if varied else "the table 'sweep' of the scene"
+        raise ModelError(
+            f"--set: '{min(twice)}' is varied by {what}, so a single value of it is never used; "
+            "leave it out, or say with --vary what to vary"
+        )
     table = table_of_runs(varied or first.varied, chosen.paired or (not varied and first.paired))
     span, record = (chosen.t_begin, chosen.t_end), tuple(chosen.record or ())
     runs = SceneRuns(chosen.scene, first.file, settings, span, record, options_of(chosen))

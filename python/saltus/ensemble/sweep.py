@@ -9,9 +9,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from saltus import _core
+from saltus._engine import core_options
 from saltus._porting import OPTIONS, refuse
 from saltus._signals import named
-from saltus._span import span_of
+from saltus._span import rows_within, span_of
 from saltus.ensemble.dataset import (
     refuse_reserved,
     summary,
@@ -210,5 +211,7 @@ def _job(
         options = replace(options, save_steps=False, record_events=False)
     elif not callable(reduce):
         raise ModelError(f"sweep: reduce: expected a function of a Results, found {reduce!r}")
-    options = replace(options, recorded_signals=None)
-    return Job(system, context, span_of("sweep", t_span), options, signals, reduce)
+    options, span = replace(options, recorded_signals=None), span_of("sweep", t_span)
+    core_options(options)  # refuses times that are none
+    options = replace(options, save_at=rows_within("sweep", options.save_at, span))
+    return Job(system, context, span, options, signals, reduce)

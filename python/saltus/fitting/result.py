@@ -13,6 +13,7 @@ from saltus.errors import ModelError
 from saltus.fitting.plot import plot
 from saltus.fitting.text import as_html, as_text
 from saltus.results import Results
+from saltus.results.record import same
 from saltus.results.tables import extra
 
 if TYPE_CHECKING:
@@ -35,6 +36,15 @@ class Compared(NamedTuple):
     model: np.ndarray
     residual: np.ndarray
     """(model - data) / sigma"""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, tuple) and same(tuple(self), tuple(other))
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __hash__(self) -> int:
+        return hash((self.experiment, self.name))
 
 
 class Start(NamedTuple):

@@ -191,6 +191,7 @@ class LookupTable1d(Block, _core.LookupTable1d):
         name: str | None = None,
     ):
         super().__init__(self._named(name), input_array, output_array, interpolation, extrapolation)
+        self._ends_outside = _ranges([input_array], extrapolation)
 
 
 class LookupTable2d(Block, _core.LookupTable2d):
@@ -235,6 +236,7 @@ class LookupTable2d(Block, _core.LookupTable2d):
         name: str | None = None,
     ):
         super().__init__(self._named(name), input_x, input_y, output_table, extrapolation)
+        self._ends_outside = _ranges([input_x, input_y], extrapolation)
 
 
 class LookupTableNd(Block, _core.LookupTableNd):
@@ -289,3 +291,11 @@ class LookupTableNd(Block, _core.LookupTableNd):
                 "as input_axes says"
             )
         super().__init__(called, axes, table.ravel(), extrapolation)
+        self._ends_outside = _ranges(axes, extrapolation)
+
+
+def _ranges(axes: Sequence[ArrayLike], extrapolation: str) -> list[tuple[float, float]] | None:
+    """The outer points of each input of a table that ends the run outside of them."""
+    if extrapolation != "error":
+        return None
+    return [(float(np.min(points)), float(np.max(points))) for points in axes]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,7 +11,7 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus._porting import is_reset, refusing
 from saltus.diagram import Diagram, DiagramBuilder
-from saltus.errors import BlockParameterError
+from saltus.errors import BlockParameterError, ShapeMismatchError
 from saltus.library.block import Block
 from saltus.system import System
 
@@ -109,6 +110,7 @@ class _Subsystem(Diagram):
             if known not in system.output_names:
                 near = _core.known_names(str(known), system.output_names)
                 raise BlockParameterError(f"block '{name}': unknown output {known!r}{near}")
+        _require_name(name, system, control)
         builder = DiagramBuilder()
         builder.add(system)
         port = builder.add(ControlPort(name=control))
@@ -125,7 +127,11 @@ class _Subsystem(Diagram):
             builder.connect(system.output(of), held.input("in"))
             builder.connect(port.output(), held.input("control"))
             builder.export_output(held.output(), of)
-        Diagram.__init__(self, builder._core, name, builder._children)
+        try:
+            Diagram.__init__(self, builder._core, name, builder._children)
+        except ShapeMismatchError as error:
+            _refuse_width(name, initial, error)
+            raise
 
 
 class EnabledSubsystem(_Subsystem):
@@ -230,3 +236,35 @@ class TriggeredSubsystem(_Subsystem):
     ):
         execution = {"kind": "triggered", "edge": edge}
         self._compose(name, system, "trigger", initial_outputs, execution, {"edge": edge})
+
+
+def _require_name(name: str, system: System, control: str) -> None:
+    """BlockParameterError for a system with an input, or a name, that the control port has."""
+    if control in system.input_names:
+        raise BlockParameterError(
+            f"block '{name}': its system '{system.name}' has an input '{control}' already, which "
+            "is the name of the control input of the whole; put the system into a diagram that "
+            "exports this input by another name: "
+            f"builder.export_input(block.input('{control}'), 'inner')"
+        )
+    if system.name == control:
+        raise BlockParameterError(
+            f"block '{name}': its system is called '{control}', which is the name of the control "
+            "port beside it; give the system another name"
+        )
+
+
+def _refuse_width(name: str, initial: Mapping[str, ArrayLike], error: ShapeMismatchError) -> None:
+    """BlockParameterError if the output before the first execution has another width."""
+    found = re.search(r"of block 'held_(.+)': expected (\d+) values, found (\d+) from", str(error))
+    if found is None:
+        return
+    of, given, width = found[1], int(found[2]), int(found[3])
+    what = (
+        f"initial_outputs says {given}" if of in initial else "initial_outputs says nothing of it"
+    )
+    zeros = ", ".join(["0.0"] * min(width, 4)) + (", ..." if width > 4 else "")
+    raise BlockParameterError(
+        f"block '{name}': output '{of}' of its system has {width} values, and {what}; say which "
+        f"values it has before the first execution: initial_outputs={{'{of}': [{zeros}]}}"
+    ) from error

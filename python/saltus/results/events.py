@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import html
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
 from saltus import _core
+from saltus._porting import missing
 from saltus.errors import ModelError
-from saltus.results.record import FIRINGS
+from saltus.results.record import FIRINGS, same
 from saltus.results.tables import extra
 
 if TYPE_CHECKING:
@@ -25,8 +26,20 @@ QUEUED = ("scheduled", "cancelled", "executed")
 KINDS = ["zero_crossing", "time", "zeno_enter", "zeno_release", "terminal", *QUEUED]
 
 
+OF_EVENT = {
+    "t": "it is event.time",
+    **dict.fromkeys(("x", "y", "state", "states"), "it is event.before and event.after"),
+}
+OF_LOG = {
+    **dict.fromkeys(("t", "time"), "the times are events.times('name')"),
+    **dict.fromkeys(("name", "names", "kind"), "each event has its own: events[0].name"),
+    **dict.fromkeys(("df", "to_dataframe"), "it is events.to_pandas()"),
+}
+"""names that are tried -> where it is here"""
+
+
 class Event(NamedTuple):
-    """One event of a run.
+    """One event of a run. Two events are equal if all their values are; nan is equal to nan here.
 
     Examples
     --------
@@ -68,9 +81,23 @@ class Event(NamedTuple):
         """[s] When the execution of a queued zero crossing is due; nan for any other event."""
         return self.predicted if self.kind in QUEUED else float("nan")
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, tuple) and same(tuple(self), tuple(other))
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __hash__(self) -> int:
+        return hash((self.jump, self.kind, self.block, self.name, self.entry))
+
+
+if not TYPE_CHECKING:  # a type checker knows the names that are there; a NamedTuple has no "if"
+    Event.__getattr__ = lambda self, name: missing(self, name, OF_EVENT)
+
 
 class EventLog(Sequence[Event]):
-    """Every event of a run, in order: a sequence of `Event`. A slice of it is a log again.
+    """Every event of a run, in order: a sequence of `Event`. A slice of it is a log again. Two logs
+    are equal if their events are.
 
     Examples
     --------
@@ -103,6 +130,17 @@ class EventLog(Sequence[Event]):
 
     def __iter__(self) -> Iterator[Event]:
         return (Event(*self._record.event(row)) for row in self._rows)
+
+    if not TYPE_CHECKING:  # a type checker knows the names that are there
+
+        def __getattr__(self, name: str) -> Any:
+            return missing(self, name, OF_LOG)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, EventLog) and same(tuple(self), tuple(other))
+
+    def __hash__(self) -> int:
+        return hash(tuple(self[:1]))
 
     def times(self, name: str | None = None, kind: str | None = None) -> np.ndarray:
         """The times of the events of one name and kind.

@@ -9,6 +9,7 @@ import numpy as np
 
 from saltus import _core
 from saltus.errors import ModelError
+from saltus.results.record import same
 from saltus.results.statistics import Statistics
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["Island", "islands_of", "refuse_common_rows", "rows_of"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Island:
     """One island of a run with the option `islands`."""
 
@@ -33,6 +34,12 @@ class Island:
     """the counts of this island alone"""
     signals: tuple[str, ...]
     """the recorded signals that have its rows"""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Island) and same(vars(self), vars(other))
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.signals))
 
 
 def islands_of(record: Record) -> tuple[Island, ...]:

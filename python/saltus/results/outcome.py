@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from copy import deepcopy
 from functools import cached_property
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -11,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
-from saltus.errors import Error, ModelError
+from saltus._porting import missing
+from saltus.errors import Error, ModelError, SimulationError
 from saltus.results.events import EventLog
 from saltus.results.pictures import Pictures
 from saltus.results.record import KINDS, KeptRun, Record
@@ -27,7 +29,11 @@ if TYPE_CHECKING:
 
     from saltus.results.islands import Island
 
-__all__ = ["Results"]
+__all__ = ["INSTEAD", "Results"]
+
+
+SHARED = {"_core", "_engine", "_asks", "_known", "system", "events"}
+"""the attributes that a deep copy has in common with its original: nothing changes them"""
 
 
 class _Outputs(dict[str, np.ndarray]):
@@ -37,6 +43,29 @@ class _Outputs(dict[str, np.ndarray]):
         raise ModelError(
             f"nothing was recorded under {name!r}{_core.known_names(name, list(self))}"
         )
+
+
+STATE = "a recorded signal is results['name'], and the final state results.context.continuous_state"
+INSTEAD = {
+    **dict.fromkeys(("t", "ts", "times"), "the times of the rows are results.time"),
+    **dict.fromkeys(("x", "xs", "y", "ys", "state", "states", "continuous_state"), STATE),
+    **dict.fromkeys(
+        ("signals", "recorded_signals", "data"), "recorded signals are results.outputs"
+    ),
+    **dict.fromkeys(("df", "to_dataframe", "to_df", "dataframe"), "it is results.to_pandas()"),
+    **dict.fromkeys(("to_file", "write", "dump"), "results.save(path), or results.to_csv(path)"),
+    "keys": "the names of the recorded signals are list(results)",
+    "sol": "values at any time are results(t), with the option dense_output=True",
+    "success": "a run came to its end if results.status == 'reached_end'",
+    "t_events": "the times of an event are results.events.times('name')",
+    "y_events": "the states at an event are results.events[0].before and .after",
+    "nfev": "it is results.statistics.right_hand_side_calls",
+    "njev": "it is results.statistics.jacobian_calls",
+    "nlu": "it is results.statistics.linear_setups",
+    "final_context": "it is results.context",
+    "parameters": "they are those of results.context",
+}
+"""names of results in SciPy and similar tools -> where it is here"""
 
 
 class Results(Pictures):
@@ -63,10 +92,33 @@ class Results(Pictures):
     def __init__(self, core: Record, raised: BaseException | None = None, asks: Any = None):
         self._core = core
         self._asks = asks if core.dense else None  # the system whose outputs dense output calls
+        if core.status == "failed" and asks is not None:
+            self._explain(core, raised, asks)
         if raised is not None and core.status == "failed":
             self.cause = raised
             if not isinstance(raised, Error):  # the message of the run has no more information
                 self.message = f"t = {self._ended_at} s: {type(raised).__name__}: {raised}"
+
+    if not TYPE_CHECKING:  # a type checker knows the names that are there
+
+        def __getattr__(self, name: str) -> Any:
+            if not name.startswith("_") and name in self._core.outputs:
+                return missing(self, name, {name: f"the recorded signal is results[{name!r}]"})
+            return missing(self, name, self._elsewhere())
+
+    def _elsewhere(self) -> dict[str, str]:
+        """Names that are tried, and where it is here."""
+        return INSTEAD
+
+    def _explain(self, core: Record, raised: BaseException | None, system: Any) -> None:
+        """Adds what the system knows to the message of the engine."""
+        from saltus.results.outside import explained
+
+        message = explained(core.message, core.block, core.context, system)
+        if message != core.message:
+            self.message = message
+            if isinstance(raised, SimulationError):
+                raised.args = (message,)
 
     @cached_property
     def time(self) -> np.ndarray:
@@ -371,6 +423,22 @@ class Results(Pictures):
     def _kind(self) -> dict[str, Any]:
         """The entries of the file's header that say which class of results it holds."""
         return {"kind": "Results"}
+
+    def __copy__(self) -> Results:
+        made = object.__new__(type(self))
+        made.__dict__.update(self.__dict__)
+        return made
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Results:
+        made = self.__copy__()
+        memo[id(self)] = made
+        for name in ("outputs",) if self._core.apart else ("outputs", "time", "jump"):
+            getattr(made, name)  # the memory of the run, which is copied below
+        for name, value in vars(made).items():
+            # an exception of the user need not be one that can be copied; Saltus's refer to results
+            if name not in SHARED and (name != "cause" or isinstance(value, Error)):
+                made.__dict__[name] = deepcopy(value, memo)
+        return made
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Results, (KeptRun.of(self._core),), self._failure()

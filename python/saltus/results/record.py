@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -11,7 +11,7 @@ import numpy as np
 from saltus import _core
 from saltus.errors import ModelError
 
-__all__ = ["FIRINGS", "KINDS", "Columns", "KeptRun", "Record"]
+__all__ = ["FIRINGS", "KINDS", "Columns", "KeptRun", "Record", "same"]
 
 FIRINGS = ("zero_crossing", "terminal", "time", "executed")
 """kinds of events that say that a guard or a clock had its effect"""
@@ -135,3 +135,17 @@ class KeptRun:
 
 KINDS: dict[str, Callable[[KeptRun, dict[str, Any]], Any]] = {}
 """kind in the header of a file -> makes the results of that kind of a run and the header"""
+
+
+def same(a: Any, b: Any) -> bool:
+    """Whether two values are equal: arrays by their shape and entries, and nan is equal to nan."""
+    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+        if type(a) is not type(b) or a.shape != b.shape:
+            return False
+        return a.dtype.kind == b.dtype.kind and bool(((a == b) | ((a != a) & (b != b))).all())
+    if isinstance(a, (tuple, list)) and isinstance(b, (tuple, list)):
+        alike = isinstance(a, tuple) == isinstance(b, tuple) and len(a) == len(b)
+        return alike and all(map(same, a, b))
+    if isinstance(a, Mapping) and isinstance(b, Mapping):
+        return a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)
+    return bool(a == b or (a != a and b != b))

@@ -9,6 +9,7 @@ import numpy as np
 
 from saltus._core import known_names
 from saltus.errors import ModelError
+from saltus.results.record import same
 from saltus.results.tables import extra
 
 if TYPE_CHECKING:
@@ -70,6 +71,11 @@ class Sensitivities(Mapping[str, np.ndarray]):
         """at the end: (state, parameter), in the order of the context"""
         self.discrete_state: np.ndarray = found["discrete_state"]
         self.gaps: tuple[Gap, ...] = tuple(Gap(*gap) for gap in found["gaps"])
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sensitivities) and same(vars(self), vars(other))
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __getitem__(self, name: str) -> np.ndarray:
         try:

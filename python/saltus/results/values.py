@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from saltus._core import known_names
 from saltus.errors import ModelError
+from saltus.results.record import same
 
 if TYPE_CHECKING:
     from saltus.results.record import Record
@@ -60,6 +61,11 @@ class Values(Mapping[str, Any]):
 
     def __contains__(self, name: object) -> bool:
         return name in self._outputs
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Values) and same(vars(self), vars(other))
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         entries = [("continuous_state", self.continuous_state), *self._outputs.items()]

@@ -27,6 +27,8 @@ MOST_CHARACTERS = 10_000
 MOST_LEVELS = 150
 ANY, EITHER = -1, -2
 OPERATORS = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Mod, ast.Pow)
+PARTIAL = (ast.Div, ast.Mod, ast.Pow)
+"""operators that have no real value for some numbers"""
 COMPARISONS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
 TRUTHS = {ast.And: "logical_and", ast.Or: "logical_or"}
 HINTS: dict[type[ast.AST], str] = {
@@ -101,11 +103,18 @@ class _Builder:
         }
 
     def wrong(self, message: str, node: Any = None) -> Wrong:
-        at = getattr(node, "col_offset", None)  # Python's parser counts bytes, not characters
-        if at is None:
+        if getattr(node, "col_offset", None) is None:
             return Wrong(self.path, f"'{self.short()}': {message}")
-        at = len(self.line().encode()[:at].decode(errors="replace")) + self.lead()
+        at = self.place(node)
         return Wrong(self.path, f"'{self.short()}', column {at + 1}: {message}", at)
+
+    def place(self, node: Any) -> int:
+        """The position of a node in the text; Python's parser counts bytes, not characters."""
+        return len(self.encoded[: node.col_offset].decode(errors="replace")) + self.lead()
+
+    @functools.cached_property
+    def encoded(self) -> bytes:
+        return self.line().encode()
 
     def short(self) -> str:
         return self.text if len(self.text) <= 60 else f"{self.text[:57]}..."
@@ -162,7 +171,10 @@ class _Builder:
             raise self.refused(node, type(node))
         if level > MOST_LEVELS:
             raise self.too_deep(node)
-        return build(node, level + 1)
+        made = build(node, level + 1)
+        if isinstance(made, (ast.BinOp, ast.Call)):
+            made.at = self.place(node)  # type: ignore[union-attr]
+        return made
 
     def refused(self, node: ast.AST, kind: type[ast.AST]) -> Wrong:
         hint = HINTS.get(kind, "expected numbers, names, + - * / % **, comparisons, and functions")
@@ -171,11 +183,13 @@ class _Builder:
     def operation(self, node: ast.BinOp, level: int) -> ast.expr:
         if not isinstance(node.op, OPERATORS):
             raise self.refused(node, type(node.op))
-        made = ast.BinOp(
-            self.as_number(node.left, level), node.op, self.as_number(node.right, level)
-        )
-        self.require_finite(made, node)
-        return made
+        left, right = self.as_number(node.left, level), self.as_number(node.right, level)
+        made = ast.BinOp(left, node.op, right)
+        if self.is_number(made, node) or not isinstance(node.op, PARTIAL):
+            return made
+        # Of numbers of Python a power may be complex, and a division by zero an exception; those of
+        # NumPy stay real, and the engine reports what is not finite.
+        return ast.BinOp(_numpy("positive", left), node.op, right)
 
     def as_number(self, node: ast.expr, level: int) -> ast.expr:
         """1 for a truth: numpy adds truths by "or"."""
@@ -185,11 +199,12 @@ class _Builder:
             return inner
         return _numpy("where", inner, ast.Constant(1.0), ast.Constant(0.0))
 
-    def require_finite(self, made: ast.expr, node: ast.AST) -> None:
-        """Wrong for an operation on two numbers that has no finite result, such as 1 / 0."""
+    def is_number(self, made: ast.expr, node: ast.AST) -> bool:
+        """Whether it is an operation on two numbers. Wrong if it has no finite result, as 1 / 0."""
         value = folded(made)
         if value is not None and not math.isfinite(value):
             raise self.wrong("expected a finite number", node)
+        return value is not None
 
     def sign(self, node: ast.UnaryOp, level: int) -> ast.expr:
         if isinstance(node.op, ast.Not):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import math
 import weakref
 from collections.abc import Callable, Mapping, Sequence
 from types import FunctionType
@@ -11,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from saltus.scene_files.expression import Expression, Word, expression
+from saltus.scene_files.evaluation import evaluated
+from saltus.scene_files.expression import Expression, Word, expression, template
 from saltus.scene_files.wrong import Path, Wrong, found
 
 __all__ = ["function_of", "list_of", "number_of", "numbers_scope", "value_of"]
@@ -31,6 +31,9 @@ def function_of(
     """
     steps: list[ast.stmt] = [ast.Assign([_name(name)], tree) for name, tree in variables]
     steps.append(ast.Return(body))
+    if any(isinstance(node, (ast.BinOp, ast.Call)) for step in steps for node in ast.walk(step)):
+        # NumPy's warnings would name no line of the file; the engine reports what is not finite
+        steps = [ast.With([ast.withitem(template('np.errstate(all="ignore")'))], steps)]
     key = f"{arguments} {rest} {[ast.dump(step) for step in steps]}"
     function = _made.get(key)
     if function is None:
@@ -66,21 +69,9 @@ def numbers_scope(values: Mapping[str, Any]) -> dict[str, Word]:
 
 
 def number_of(path: Path, text: Any, values: Mapping[str, Any]) -> float:
-    """The number of an expression of other numbers. Wrong if it is not one."""
+    """The number of an expression of other numbers. Wrong if it has none."""
     made = expression(path, text, numbers_scope(values))
-    function = function_of((), made.tree, "p")
-    try:
-        with np.errstate(all="ignore"):
-            number = function(**{name: _floats(values[name]) for name in made.names})
-    except (ArithmeticError, ValueError) as error:
-        raise Wrong(path, f"'{text}' has no value: {error}") from None
-    if isinstance(number, complex) or math.isnan(number):
-        raise Wrong(path, f"'{text}' has no value: not a number")
-    return float(number)
-
-
-def _floats(value: Any) -> Any:
-    return [_floats(entry) for entry in value] if isinstance(value, list) else float(value)
+    return float(evaluated(path, text, made.tree, values))
 
 
 def value_of(path: Path, value: Any, values: Mapping[str, Any]) -> Any:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from saltus.scene_files.evaluation import evaluated
 from saltus.scene_files.expression import Expression, Word, expression
 from saltus.scene_files.functions import function_of
 from saltus.scene_files.names import named_vector, require_word
@@ -81,6 +82,8 @@ class LeafScope:
 
     def expression(self, path: Path, text: Any) -> Expression:
         made = expression(path, text, self.words)
+        if path[-2:-1] != ("variables",):  # a variable may be read in one branch alone
+            evaluated(path, text, made.tree, self.parameters, whole=False)
         behind = (self.variables[name].names for name in made.names & self.variables.keys())
         made = replace(made, names=made.names.union(*behind))
         self.read |= made.names & self.parameters.keys()

@@ -9,6 +9,7 @@ from typing import Any
 from saltus import library
 from saltus._core import known_names
 from saltus.library.called import elsewhere
+from saltus.scene_files.evaluation import evaluated
 from saltus.scene_files.expression import ANY, EITHER, Word, expression
 from saltus.scene_files.functions import function_of, list_of, number_of, value_of
 from saltus.scene_files.state_machine import state_machine
@@ -122,4 +123,6 @@ def _function(path: Path, block: str, text: Any, values: dict[str, Any]) -> Any:
     words = {n: Word(f"({v!r})".replace("inf", "np.inf")) for n, v in numbers.items()} | scope
     texts = [((*path, i), t) for i, t in enumerate(text)] if isinstance(text, list) else None
     made = [expression(p, t, words) for p, t in texts or [(path, text)]]
+    for (p, t), each in zip(texts or [(path, text)], made, strict=True):
+        evaluated(p, t, each.tree, {}, whole=False)
     return function_of(list(scope), list_of(made) if texts is not None else made[0].tree)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from saltus._signals import port_of
+from saltus._span import ROUNDING
 from saltus.options import SimulatorOptions
 from saltus.ports import OutputPort
 from saltus.scene_files.functions import number_of, value_of
@@ -97,7 +98,15 @@ def _option(path: Path, key: str, value: Any, values: dict[str, Any]) -> Any:
 def _times(path: Path, value: Any, begin: float, until: float | None, values: Any) -> list[float]:
     """A list of times, or the number of even times from the begin to the end."""
     if isinstance(value, list):
-        return [number_of((*path, i), time, values) for i, time in enumerate(value)]
+        times = [number_of((*path, i), time, values) for i, time in enumerate(value)]
+        end = math.inf if until is None else until
+        near = ROUNDING * max(abs(begin), 0.0 if until is None else abs(until))
+        for i, time in enumerate(times):
+            if not begin - near <= time <= end + near:
+                raise Wrong(
+                    (*path, i), f"expected a time from {begin:g} s to {end:g} s, found {time:g}"
+                )
+        return times
     if type(value) is not int or not 2 <= value <= MOST_ROWS:
         raise Wrong(
             path, f"expected a list of times [s], or how many even ones, found {found(value)}"

@@ -7,9 +7,10 @@ import inspect
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from saltus import _core
+from saltus._porting import missing
 from saltus.ensemble.sweep import sweep
 from saltus.errors import ModelError
 from saltus.results import Results
@@ -19,6 +20,7 @@ from saltus.scene_files.systems import parameters_of, system_of_table
 from saltus.scene_files.writing import text_of
 from saltus.scene_files.wrong import Path as Keys
 from saltus.scene_files.wrong import Wrong, placed
+from saltus.scenes import OF_SCENE
 from saltus.simulation import Simulator, SimulatorOptions, simulate
 from saltus.system import System
 
@@ -69,6 +71,11 @@ class FileScene:
     """the tables of the file, those of included files in place of their names"""
     swept: Sweep
     """the `values` of the table `sweep`, by name, and whether they are `paired`"""
+
+    if not TYPE_CHECKING:  # a type checker knows the names that are there
+
+        def __getattr__(self, name: str) -> Any:
+            return missing(self, name, OF_SCENE)
 
     def __init__(
         self, tree: dict[str, Any], sources: Mapping[Keys, Source], name: str, given: dict[str, Any]

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from saltus.library import StateMachine, Transition
+from saltus.scene_files.evaluation import evaluated
 from saltus.scene_files.expression import Word, expression
 from saltus.scene_files.functions import function_of, number_of
 from saltus.scene_files.names import chosen, require_part_name, require_word, text_at
@@ -114,6 +115,8 @@ class _Reader:
     def function(self, texts: dict[Path, Any], body: Callable[..., ast.expr]) -> Any:
         """A function with the names that some expressions read; it returns `body(*trees)`."""
         made = [expression(path, text, self.words) for path, text in texts.items()]
+        for (path, text), each in zip(texts.items(), made, strict=True):
+            evaluated(path, text, each.tree, {}, whole=False)
         names = set().union(*(each.names for each in made))
         self.read |= names & self.values.keys() & self.arguments.keys()
         arguments = sorted(self.arguments[name] for name in names & self.arguments.keys())

@@ -7,7 +7,7 @@ from typing import Any
 
 from saltus import _core
 from saltus._engine import core_context
-from saltus._span import span_of
+from saltus._span import rows_within, span_of
 from saltus.options import SimulatorOptions
 from saltus.results import Results
 from saltus.simulation.whole import prepared, run_whole
@@ -91,6 +91,11 @@ def simulate(
     if recorded_signals is not None:
         option_overrides["recorded_signals"] = recorded_signals
     run = prepared("Simulator", system, options, option_overrides)
+    save_at = option_overrides.get("save_at", () if options is None else options.save_at)
+    if len(save_at):
+        rows = rows_within("simulate", save_at, (begin, end))
+        if rows is not save_at:
+            run = prepared("Simulator", system, options, {**option_overrides, "save_at": rows})
     context = core_context(system.create_context(begin) if context is None else context)
     # a context from the end of a run at this time records which events have happened already
     if context.time != begin:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import weakref
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from saltus import _core
 from saltus._engine import core_context, core_options
+from saltus._porting import missing
 from saltus._status import WELL
 from saltus.callbacks import Callbacks, planned
 from saltus.errors import ModelError
@@ -33,6 +34,18 @@ class Reached(str):
     __slots__ = ("context",)
 
     context: _core.Context
+
+
+OF_SIMULATOR = {
+    **dict.fromkeys(
+        ("run", "step", "advance", "AdvanceTo", "simulate"),
+        "it is simulator.advance_to(time, context)",
+    ),
+    **dict.fromkeys(("result", "outputs"), "what the run gave is simulator.results"),
+    **dict.fromkeys(("status", "events"), "it is that of simulator.results"),
+    "t": "it is simulator.time",
+}
+"""names that are tried -> where it is here"""
 
 
 class Simulator:
@@ -81,6 +94,11 @@ class Simulator:
         self._shown: Callable[[], Results | None] = _nothing  # the last results, while they live
         self._failed: Results | None = None
         self._turn = Turn()
+
+    if not TYPE_CHECKING:  # a type checker knows the names that are there
+
+        def __getattr__(self, name: str) -> Any:
+            return missing(self, name, OF_SIMULATOR)
 
     def _make(self) -> None:
         """The engine's simulator, over a plan of its own."""

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus._declarations import places_of
+from saltus.errors import ModelError
 
-__all__ = ["PLAIN", "Form", "Names", "chosen", "form_of"]
+__all__ = ["PLAIN", "Form", "Names", "chosen", "form_of", "require_numbers"]
 
 Function = Callable[..., Any]
 Names = tuple[str, ...] | None
@@ -84,7 +85,10 @@ class Form:
 
     def rate(self, xdot: Any) -> Any:
         """dx/ds of the engine's state from dx/dt."""
-        return xdot if self.plain else self.time(self.flat(xdot))
+        if self.plain:
+            return xdot
+        require_numbers("f", xdot)
+        return self.time(self.flat(xdot))
 
     def matrix(
         self, function: Function, args: tuple[Any, ...], size: int, names: Names = None
@@ -98,17 +102,26 @@ class Form:
             found = function(self.time(time), self.state(state.continuous_state), *args, **named)
             if hasattr(found, "toarray"):
                 found = found.toarray()
+            if self.plain:
+                alone = size == 1 and np.ndim(found) == 0
+                whole = alone and found is not None and not isinstance(found, (str, dict))
+                return [[found]] if whole else found  # the engine refuses what is no number
+            require_numbers("jacobian", found)
             if size == 1 and np.ndim(found) == 0:
                 found = [[found]]
-            return found if self.plain else self.time(self._real(found))
+            return self.time(self._real(found, size))
 
         return entries
 
-    def _real(self, matrix: ArrayLike) -> np.ndarray:
+    def _real(self, matrix: ArrayLike, size: int) -> np.ndarray:
         """The matrix of real and imaginary parts: a + ib is the block ((a, -b), (b, a))."""
         if not self.is_complex:
             return np.asarray(matrix)
         given = np.asarray(matrix, dtype=complex)
+        if given.shape != (size, size):
+            raise ModelError(
+                f"solve: jacobian returned shape {given.shape}, expected {(size, size)}"
+            )
         real = np.empty((2 * given.shape[0], 2 * given.shape[1]))
         real[0::2, 0::2] = real[1::2, 1::2] = given.real
         real[1::2, 0::2] = given.imag
@@ -134,6 +147,18 @@ class Form:
 def chosen(names: Names, state: Any, given: dict[str, Any]) -> dict[str, Any]:
     """The keywords of a function that takes `names`."""
     return {name: state.mode if name == "mode" else given[name] for name in names or ()}
+
+
+def require_numbers(what: str, returned: Any, expected: str = "numbers") -> None:
+    """ModelError where a function returned what is no number, nor a list or an array of them."""
+    if returned is None:
+        raise ModelError(
+            f"solve: {what} returned None, expected {expected}; is a `return` missing?"
+        )
+    entries = returned if isinstance(returned, (list, tuple)) else [returned]
+    for entry in entries:
+        if entry is None or isinstance(entry, (str, dict)):
+            raise ModelError(f"solve: {what} returned {returned!r}, expected {expected}")
 
 
 PLAIN = Form()

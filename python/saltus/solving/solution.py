@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from saltus.errors import ModelError
 from saltus.results import Results
+from saltus.results.outcome import INSTEAD
 from saltus.results.record import FIRINGS, KINDS, KeptRun, Record
 from saltus.results.saving import save
 from saltus.solving.form import PLAIN, Form
@@ -40,6 +41,13 @@ class Known:
 
 
 UNKNOWN = Known()
+
+
+OF_SOLUTION = {
+    **dict.fromkeys(("ts", "times"), "the times of the rows are solution.t"),
+    **dict.fromkeys(("x", "xs", "ys", "state", "states"), "the states are solution.y"),
+}
+"""names that are tried -> where it is here"""
 
 
 class Solution(Results):
@@ -93,6 +101,9 @@ class Solution(Results):
         self._engine = core
         super().__init__(formed(core, known.form), raised, asks)
         self.system = system
+
+    def _elsewhere(self) -> dict[str, str]:
+        return INSTEAD | OF_SOLUTION
 
     @cached_property
     def message(self) -> str:

@@ -17,7 +17,7 @@ from saltus._wrapped import wrapping
 from saltus.calling import refuse_writing
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
-from saltus.solving.form import PLAIN, Form, Names, chosen
+from saltus.solving.form import PLAIN, Form, Names, chosen, require_numbers
 from saltus.solving.guard import Guard, functions_of
 from saltus.solving.named import NONE, Named
 from saltus.solving.solution import BLOCK
@@ -110,7 +110,13 @@ def _one_column(f: Function) -> Function:
     """f(t, x) of one state from SciPy's f(t, x) of k states, the columns of x."""
     if not callable(f):
         return f  # which is refused
-    return lambda t, x, *args, **named: np.reshape(f(t, x[:, None], *args, **named), -1)
+
+    def column(t: Any, x: Any, *args: Any, **named: Any) -> Any:
+        found = f(t, x[:, None], *args, **named)
+        require_numbers("f", found)
+        return np.reshape(found, -1)
+
+    return column
 
 
 def _flow(f: Function, form: Form, x0: np.ndarray, args: tuple[Any, ...], names: Names) -> Function:
@@ -175,6 +181,8 @@ def _checked(
     except ValueError as error:
         refuse_writing(f"solve: {getattr(f, '__name__', 'f')}", error, error.__traceback__)
         raise
+    entries = f"{x0.size} number{'s' * (x0.size != 1)}"
+    require_numbers(f"{getattr(f, '__name__', 'f')}(t, x)", returned, entries)
     if np.iscomplexobj(returned) and not form.is_complex:
         raise ModelError(
             "solve: f returned complex numbers for a real x0; make x0 complex, such as "
@@ -208,7 +216,10 @@ def _reset(reset: Function, name: str, form: Form, args: tuple[Any, ...], names:
             raise ModelError(
                 f"solve: the reset of '{label.name}' returned None; return the new state"
             )
-        return form.flat(after) if form.is_complex else after
+        if not form.is_complex:
+            return after
+        require_numbers("the reset", after)
+        return form.flat(after)
 
     return reset_map
 

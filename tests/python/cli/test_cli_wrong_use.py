@@ -129,3 +129,48 @@ def test_from_a_shell_there_is_no_traceback():
     done = subprocess.run(command, capture_output=True, text=True, timeout=60)
     assert done.returncode == 2
     assert len(done.stderr.splitlines()) == 1
+
+
+FILE = """version = 1
+[parameters]
+k = 1.0
+[states]
+y = { start = 1.0, rate = "-k * y" }
+[outputs]
+o = "y"
+[run]
+until = 1.0
+save_at = [0.25, 0.75]
+"""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "parts"),
+    [
+        (["sweep", "SCENE", "--vary", "k=1,2", "--set", "k=3"], ["--set: 'k' is varied by --vary"]),
+        (["sweep", "SWEPT", "--set", "k=3"], ["--set: 'k' is varied by the table 'sweep'"]),
+        (["sweep", "SCENE", "--vary", "k=1,2", "--vary", "k=3"], ["--vary", "once for each name"]),
+        (["run", "SCENE", "--set", "k=1", "--set", "k=2"], ["--set: 'k' is set twice"]),
+        (["run", "SCENE", "--rtol", "1e-3", "--option", "rtol=1e-4"], ["'rtol' is set by --rtol"]),
+        (["run", "SCENE", "--save-at", "5", "--option", "save_at=[0.1]"], ["set by --save-at"]),
+        (["run", "SCENE", "--option", "save_at=[0.5, 3.0]"], ["save_at", "1.0 s, found 3.0 s"]),
+        (["run", "SCENE", "--save-at", "0.5,3"], ["0 s to 1 s", "found 3"]),
+        (["sweep", "SCENE", "--vary", "k=1,2", "--option", "save_at=[3.0]"], ["found 3.0 s"]),
+    ],
+)
+def test_what_would_be_ignored_is_refused(arguments, parts, tmp_path, capsys):
+    (tmp_path / "SCENE.toml").write_text(FILE)
+    (tmp_path / "SWEPT.toml").write_text(f"{FILE}[sweep]\nvalues = {{ k = [1.0, 2.0] }}\n")
+    named = [str(tmp_path / f"{a}.toml") if a.isupper() else a for a in arguments]
+    assert main(named) == 2
+    said = capsys.readouterr()
+    assert not said.out and said.err.count("\n") == 1
+    assert all(part in said.err for part in parts), said.err
+
+
+def test_a_shorter_run_has_the_rows_of_the_scene_as_far_as_it_goes(tmp_path, capsys):
+    (tmp_path / "scene.toml").write_text(FILE)
+    rows = tmp_path / "rows.csv"
+    assert main(["run", str(tmp_path / "scene.toml"), "--t-end", "0.5", "--csv", str(rows)]) == 0
+    times = [float(line.split(",")[0]) for line in rows.read_text().split()[1:]]
+    assert times == [0.0, 0.25, 0.5]

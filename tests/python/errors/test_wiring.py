@@ -4,7 +4,17 @@ is as it was, and goes on.
 
 import pytest
 import saltus
-from saltus.library import Adder, Comparator, Constant, Gain, Integrator, ReduceBlock
+from saltus.errors import ModelError
+from saltus.library import (
+    Adder,
+    Comparator,
+    Constant,
+    EnabledSubsystem,
+    Gain,
+    Integrator,
+    ReduceBlock,
+    TriggeredSubsystem,
+)  # fmt: skip
 
 
 def diagram(*wires, blocks):
@@ -318,3 +328,38 @@ def test_a_port_that_a_diagram_does_not_have_is_refused(index):
     outer = diagram(blocks=[nested, one])
     refused(lambda: outer.connect(one.output(), saltus.InputPort(nested, index)))
     refused(lambda: outer.export_output(saltus.OutputPort(nested, index)))
+
+
+def test_a_control_port_within_a_control_port_needs_another_name():
+    with pytest.raises(ModelError) as caught:
+        EnabledSubsystem(EnabledSubsystem(Gain(2.0), name="inner"), name="outer")
+    said = str(caught.value)
+    assert "block 'outer': its system 'inner' has an input 'enable' already" in said
+    assert "into a diagram that exports this input by another name" in said
+    with pytest.raises(ModelError, match="has an input 'trigger' already"):
+        TriggeredSubsystem(TriggeredSubsystem(Gain(2.0)))
+    with pytest.raises(ModelError, match="its system is called 'enable'"):
+        EnabledSubsystem(Gain(2.0, name="enable"))
+
+
+def test_the_remedy_for_it_works():
+    builder = saltus.DiagramBuilder()
+    inner = builder.add(EnabledSubsystem(Gain(2.0), name="inner"))
+    for port in inner.input_names:
+        builder.export_input(inner.input(port), f"{port}_inner")
+    builder.export_output(inner.output(), "y")
+    outer = EnabledSubsystem(builder.build("part"), name="outer")
+    assert outer.input_names == ["in_inner", "enable_inner", "enable"]
+
+
+@pytest.mark.parametrize("kind", [EnabledSubsystem, TriggeredSubsystem])
+@pytest.mark.parametrize(
+    ("initial", "part"), [(None, "says nothing of it"), ({"out": [1.0, 2.0]}, "says 2")]
+)
+def test_the_output_of_a_subsystem_before_its_first_execution_has_its_width(kind, initial, part):
+    with pytest.raises(ModelError) as caught:
+        kind(Constant([1.0, 2.0, 3.0]), initial_outputs=initial, name="part")
+    said = str(caught.value)
+    assert "block 'part': output 'out' of its system has 3 values, and initial_outputs " in said
+    assert part in said and "initial_outputs={'out': [0.0, 0.0, 0.0]}" in said
+    assert kind(Constant([1.0, 2.0, 3.0]), initial_outputs={"out": [0.0] * 3}).output_names

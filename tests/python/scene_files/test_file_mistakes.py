@@ -112,11 +112,15 @@ CASES = {
         ["finite number"],
     ),
     "a division by zero": (LEAF + 'v = { start = "1 / 0" }', (3, 16), ["finite number"]),
-    "a root that is none": (LEAF + 'v = { start = "sqrt(-1)" }', (3, 7), ["has no value"]),
+    "a root that is none": (
+        LEAF + 'v = { start = "sqrt(-1)" }',
+        (3, 16),
+        ["sqrt(-1) has no value"],
+    ),
     "a complex power": (
         LEAF + 'v = { start = "k ** 0.5" }\n[parameters]\nk = -1',
-        (3, 7),
-        ["no value"],
+        (3, 16),
+        ["(-1) ** 0.5 has no value"],
     ),
     "a loop of parameters": (
         'version = 1\n[parameters]\na = "b"\nb = "a"\n[outputs]\ny = "a"',
