@@ -1,5 +1,5 @@
-// The common part of elementwise blocks: a scalar counts as a vector of equal entries, and vectors
-// must have one width.
+// The common part of elementwise blocks: a scalar counts as a signal of equal entries, and vectors
+// and matrices must have one shape.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ inline double entry(const VectorView& values, Index i) {
   return values[values.size() == 1 ? 0 : i];
 }
 
-/// The shape that fits all inputs. Throws ShapeMismatchError if vectors of different widths meet.
+/// The shape that fits all inputs. Throws ShapeMismatchError if signals of different shapes meet.
 Shape stretched(const std::string& block, std::span<const Shape> shapes);
 
 /// The rule for an output that combines the block's inputs with `parameters`, entry by entry.
