@@ -93,16 +93,19 @@ void bind_arithmetic(py::module_& module) {
                                                LookupTableNdOptions{extrapolation});
       }));
   using Rectangle = std::pair<Index, Index>;
-  const auto shape_of = [](const Rectangle& of) { return MatrixShape{of.first, of.second}; };
+  const auto rectangle = [](const Rectangle& of) { return MatrixShape{of.first, of.second}; };
   py::class_<MatrixInversion, System>(module, "MatrixInversion")
+      .def(py::init<std::string>())
       .def(py::init<std::string, Index>());
   py::class_<MatrixMultiplication, System>(module, "MatrixMultiplication")
-      .def(py::init([shape_of](const std::string& name, Rectangle left, Rectangle right) {
-        return std::make_unique<MatrixMultiplication>(name, shape_of(left), shape_of(right));
+      .def(py::init<std::string>())
+      .def(py::init([rectangle](const std::string& name, Rectangle left, Rectangle right) {
+        return std::make_unique<MatrixMultiplication>(name, rectangle(left), rectangle(right));
       }));
   py::class_<MatrixTransposition, System>(module, "MatrixTransposition")
-      .def(py::init([shape_of](const std::string& name, Rectangle shape) {
-        return std::make_unique<MatrixTransposition>(name, shape_of(shape));
+      .def(py::init<std::string>())
+      .def(py::init([rectangle](const std::string& name, Rectangle shape) {
+        return std::make_unique<MatrixTransposition>(name, rectangle(shape));
       }));
   py::class_<MinMax, System>(module, "MinMax").def(py::init<std::string, std::string_view, int>());
   py::class_<Multiplexer, System>(module, "Multiplexer").def(py::init<std::string, int>());

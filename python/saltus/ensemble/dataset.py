@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from saltus._entries import dimension_names
 from saltus._status import WELL
 from saltus.ensemble.columns import STATUS, Columns
 from saltus.ensemble.table import Table
@@ -114,9 +115,7 @@ def _add_values(add: Any, columns: Columns, save_at: list[float]) -> None:
     """Recorded signals, and the states at the end."""
     for name, array in columns["signals"].items():
         more = ["time"] if save_at else []
-        if array.ndim > 1 + len(more):
-            more.append(f"{name}_entry")
-        add(name, array, *more)
+        add(name, array, *more, *dimension_names(name, array.ndim - 1 - len(more)))
     for name in ("continuous_state", "discrete_state"):
         if columns[name].shape[1]:
             add(name, columns[name], f"{name}_entry")
