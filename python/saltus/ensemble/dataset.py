@@ -161,8 +161,9 @@ def _coordinates(columns: Columns, table: Table, save_at: list[float]) -> Arrays
         array = np.asarray(values)
         if array.ndim == len(dims):
             found[name] = (dims, array)
-        else:  # vectors
-            found[f"{name}_values"] = ((*dims, f"{name}_entry"), array)
+        else:  # vectors or matrices
+            axes = dimension_names(name, array.ndim - len(dims))
+            found[f"{name}_values"] = ((*dims, *axes), array)
     if not table.is_grid:
         found["run"] = (("run",), np.arange(table.runs))
     if save_at:
@@ -183,9 +184,14 @@ def to_dataset(
     coordinates = {
         name: value
         for name, value in _coordinates(columns, table, save_at).items()
-        if set(value[0]) <= used | {f"{name.removesuffix('_values')}_entry"}
+        if set(value[0]) <= used | _axes_of_values(name.removesuffix("_values"))
     }
     return xarray().Dataset(variables, coordinates, attributes)
+
+
+def _axes_of_values(name: str) -> set[str]:
+    """The axes of the values of a swept vector or matrix."""
+    return {*dimension_names(name, 1), *dimension_names(name, 2)}
 
 
 def to_dict(
