@@ -115,7 +115,9 @@ def _place(what: str, entry: tuple[int, ...], shape: tuple[int, ...]) -> int:
     shape = shape or (1,)
     if len(entry) != len(shape) or any(i >= n for i, n in zip(entry, shape, strict=True)):
         first = ",".join("0" for _ in shape)
-        raise ModelError(f"{what}: the signal has {math.prod(shape)} entries, the first is [{first}]")
+        raise ModelError(
+            f"{what}: the signal has {math.prod(shape)} entries, the first is [{first}]"
+        )
     return int(np.ravel_multi_index(entry, shape))
 
 
