@@ -206,9 +206,9 @@ void bind_leaf_system(py::module_& module) {
            })
       .def("declare_input_port",
            [](PythonLeaf& leaf, std::string name, const std::optional<Dimensions>& shape) {
-             const std::string what = text(
-                 "block '", leaf.name(), "': input '",
-                 name.empty() ? text("in_", leaf.input_names().size()) : name, "'");
+             const std::string what =
+                 text("block '", leaf.name(), "': input '",
+                      name.empty() ? text("in_", leaf.input_names().size()) : name, "'");
              return leaf.add_input(std::move(name), shape_from(shape, what));
            })
       .def("declare_output_port", &declare_output_port)

@@ -64,8 +64,8 @@ py::tuple at(const SharedRecord& results, const std::vector<double>& times, bool
   const auto n = static_cast<py::ssize_t>(times.size());
   py::dict outputs;
   for (std::size_t i = 0; i < signals.size(); ++i) {
-    outputs[py::str(results->signals[i].name)] = py::array_t<double>(
-        dimensions_of(results->signals[i].shape, {n}), signals[i].data());
+    outputs[py::str(results->signals[i].name)] =
+        py::array_t<double>(dimensions_of(results->signals[i].shape, {n}), signals[i].data());
   }
   const py::ssize_t width = results->trajectory.plan()->nx;
   return py::make_tuple(py::array_t<double>({n, width}, states.data()), outputs);

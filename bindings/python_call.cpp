@@ -110,10 +110,10 @@ void PythonLeaf::set_out(Frame& frame, const Function& function, Index size) con
   if (!ours(frame.out) || size_of(frame.out) != size) {
     const Index n = declarations().continuous.initial.size();
     const bool as_state = function.role == Role::ode && !x_dimensions_.empty();
-    frame.out = Array(as_state                          ? x_dimensions_
-                      : function.role == Role::jacobian ? Dimensions{n, n}
-                                                        : dimensions_of(Shape{
-                                                              size, true, function.columns}));
+    frame.out = Array(as_state ? x_dimensions_
+                      : function.role == Role::jacobian
+                          ? Dimensions{n, n}
+                          : dimensions_of(Shape{size, true, function.columns}));
   }
   std::fill_n(numbers_of(frame.out), size, std::bit_cast<double>(unwritten));
   frame.arguments.back() = frame.out.ptr();

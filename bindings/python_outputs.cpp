@@ -141,8 +141,7 @@ void PythonLeaf::finish(OutputDeclaration& output, const Unfinished& entry,
   const bool reads = reads_inputs(output, declared);
   const auto found = sample(entry.function, shapes, std::span(guesses).first(reads ? 7 : 1));
   if (!entry.boolean) output.boolean = found && found->dtype().kind() == 'b';
-  if (!entry.shape && !reads)
-    output.shape = shape_of_result(entry.function, found);
+  if (!entry.shape && !reads) output.shape = shape_of_result(entry.function, found);
 }
 
 void PythonLeaf::collect(Structure& out, const std::string& path) const {

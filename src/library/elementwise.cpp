@@ -9,8 +9,8 @@ namespace saltus::detail {
 Shape stretched(const std::string& block, std::span<const Shape> shapes) {
   const Shape result = elementwise(shapes);
   const bool fit = std::ranges::all_of(shapes, [&](const Shape& shape) {
-    return shape.size == 1 || (shape.size > 0 && shape.size == result.size &&
-                               shape.columns == result.columns);
+    return shape.size == 1 ||
+           (shape.size > 0 && shape.size == result.size && shape.columns == result.columns);
   });
   if (fit) return result;
   std::string found;

@@ -33,21 +33,20 @@ void invert(const std::string& block, const At& at, Index rows, VectorRef out) {
 
 MatrixInversion::MatrixInversion(std::string name) : LeafSystem(std::move(name)) {
   declare_input_port({.name = "in"});
-  declare_output_port({.name = "out",
-                       .calc = [block = this->name()](const At& at, VectorRef out) {
-                         invert(block, at, at.u.columns(0), out);
-                       },
-                       .shape = {},
-                       .shape_rule =
-                           [block = this->name()](std::span<const Shape> in) {
-                             detail::require_matrix_signal(block, in[0]);
-                             if (in[0].rows() != in[0].columns)
-                               throw ShapeMismatchError(
-                                   text("block '", block, "': expected a square matrix, found ",
-                                        in_words(in[0])));
-                             return in[0];
-                           },
-                       .reads = Reads::inputs});
+  declare_output_port(
+      {.name = "out",
+       .calc = [block = this->name()](const At& at,
+                                      VectorRef out) { invert(block, at, at.u.columns(0), out); },
+       .shape = {},
+       .shape_rule =
+           [block = this->name()](std::span<const Shape> in) {
+             detail::require_matrix_signal(block, in[0]);
+             if (in[0].rows() != in[0].columns)
+               throw ShapeMismatchError(
+                   text("block '", block, "': expected a square matrix, found ", in_words(in[0])));
+             return in[0];
+           },
+       .reads = Reads::inputs});
 }
 
 MatrixInversion::MatrixInversion(std::string name, Index rows) : LeafSystem(std::move(name)) {

@@ -17,8 +17,9 @@ Shape product(const std::string& block, const Shape& left, const Shape& right) {
     throw ShapeMismatchError(text("block '", block, "': expected matrices or vectors, as many ",
                                   "columns on the left as rows on the right, found ",
                                   in_words(left), " and ", in_words(right),
-                                  left.vector && right.vector ? "" : "; a Gain or a Product "
-                                                                     "multiplies by a scalar"));
+                                  left.vector && right.vector ? ""
+                                                              : "; a Gain or a Product "
+                                                                "multiplies by a scalar"));
   if (left.is_matrix() && right.is_matrix()) return Shape::matrix(left.rows(), right.columns);
   if (left.is_matrix()) return Shape::of(left.rows());
   return right.is_matrix() ? Shape::of(right.columns) : Shape::scalar();
@@ -37,19 +38,17 @@ auto entry(const auto& at, Index i, Index inner, Index columns) {
 MatrixMultiplication::MatrixMultiplication(std::string name) : LeafSystem(std::move(name)) {
   declare_input_port();
   declare_input_port();
-  declare_output_port({.name = "out",
-                       .shape = {},
-                       .shape_rule =
-                           [block = this->name()](std::span<const Shape> in) {
-                             return product(block, in[0], in[1]);
-                           },
-                       .reads = Reads::inputs,
-                       .formula =
-                           [](const auto& at, Index i) {
-                             const Index left = at.columns(0);
-                             return entry(at, i, left > 0 ? left : at.width(0),
-                                          std::max(at.columns(1), Index{1}));
-                           }});
+  declare_output_port(
+      {.name = "out",
+       .shape = {},
+       .shape_rule = [block = this->name()](
+                         std::span<const Shape> in) { return product(block, in[0], in[1]); },
+       .reads = Reads::inputs,
+       .formula =
+           [](const auto& at, Index i) {
+             const Index left = at.columns(0);
+             return entry(at, i, left > 0 ? left : at.width(0), std::max(at.columns(1), Index{1}));
+           }});
 }
 
 MatrixMultiplication::MatrixMultiplication(std::string name, MatrixShape left, MatrixShape right)

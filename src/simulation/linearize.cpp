@@ -113,8 +113,7 @@ class Linearizer::Parts {
     require_differentiable(entry, text("linearize: ", input.name));
     if (input.value)
       write_entry(layout_, entry, {input.value->data(), size_of(*input.value)}, input.name);
-    add_columns(input.name, columns_.of_parameter, entry.first,
-                {entry.size, entry.size > 1, 0});
+    add_columns(input.name, columns_.of_parameter, entry.first, {entry.size, entry.size > 1, 0});
     parameters_.push_back({input, entry});
   }
 
@@ -133,8 +132,7 @@ class Linearizer::Parts {
     return static_cast<std::size_t>(values.size());
   }
 
-  void add_columns(const std::string& name, List<Index>& of, Index first,
-                   const Shape& shape) {
+  void add_columns(const std::string& name, List<Index>& of, Index first, const Shape& shape) {
     for (Index i = 0; i < shape.size; ++i) {
       if (of[first + i] >= 0)
         throw ModelError(text("linearize: input '", name, "' is named twice"));

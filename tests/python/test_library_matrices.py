@@ -82,7 +82,10 @@ def test_a_matrix_that_loses_its_inverse_ends_the_run():
         (lambda: MatrixTransposition("23"), "found '23'"),
         (lambda: MatrixInversion(0), "rows: expected a whole number above 0"),
         (lambda: MatrixInversion(True), "found True"),
-        (lambda: saltus.response(MatrixInversion(2), [1.0, 2.0, 3.0]), r"expected shape \(2, 2\), found shape \(3,\)"),
+        (
+            lambda: saltus.response(MatrixInversion(2), [1.0, 2.0, 3.0]),
+            r"expected shape \(2, 2\), found shape \(3,\)",
+        ),
     ],
 )
 def test_what_does_not_fit_is_refused(make, words):

@@ -77,7 +77,8 @@ TEST_CASE("a width that does not fit is refused with both ports", "[flatten]") {
       builder.add<Integrator>("integrator", Integrator::Options{.initial_state = {0.0, 0.0}});
   builder.connect(vector.output(), integrator.input());
   CHECK(message<ModelError>([&] { builder.build(); }) ==
-        "input 'in' of block 'integrator': expected shape (2,), found shape (3,) from output 'vector.out'");
+        "input 'in' of block 'integrator': expected shape (2,), found shape (3,) from output "
+        "'vector.out'");
 }
 
 TEST_CASE("vectors of different widths that meet are refused", "[flatten]") {

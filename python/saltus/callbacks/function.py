@@ -63,7 +63,8 @@ def _out_shape(block: Block, function: Block) -> tuple[int, ...] | None:
         return tuple(block["state_shape"])
     if function["role"] == "jacobian":
         return (len(block["x"]), len(block["x"]))
-    return function["result_shape"]
+    shape: tuple[int, ...] | None = function["result_shape"]
+    return shape
 
 
 def core_trace(block: Block, function: Block, outcome: Any) -> _core.Trace | None:

@@ -31,7 +31,7 @@ class Bound:
     columns: Columns
     context: _core.Context
     span: tuple[float, float]
-    signals: dict[str, tuple[str, int | None]]
+    signals: dict[str, tuple[str, tuple[int, ...] | None]]
     """name in the data -> name under which the run records it, entry"""
     recorded: dict[str, OutputPort]
 

@@ -81,8 +81,8 @@ def _column(where: str, name: str, values: Any, time: np.ndarray) -> np.ndarray:
     column = _numbers(f"{where}: '{name}'", values)
     if column.ndim not in (1, 2, 3) or len(column) != len(time):
         raise ModelError(
-            f"{where}: '{name}': expected a value, a vector or a matrix for each of {len(time)} times, found "
-            f"the shape {column.shape}"
+            f"{where}: '{name}': expected a value, a vector or a matrix for each of {len(time)} "
+            f"times, found the shape {column.shape}"
         )
     if np.isinf(column).any():
         raise ModelError(f"{where}: '{name}' is infinite at t = {_first(column, time):g} s; "

@@ -74,7 +74,8 @@ class MatrixMultiplication(Block, _core.MatrixMultiplication):
         if left_shape is None or right_shape is None:
             given = "left_shape" if right_shape is None else "right_shape"
             raise ModelError(
-                f"block '{own}': expected left_shape and right_shape, or neither, found {given} only"
+                f"block '{own}': expected left_shape and right_shape, or neither, found {given}
+                only"
             )
         super().__init__(
             own, _shape(own, "left_shape", left_shape), _shape(own, "right_shape", right_shape)
@@ -137,8 +138,8 @@ class MatrixInversion(Block, _core.MatrixInversion):
         If `rows` is no whole number above 0; when the diagram is built, if the input is no square
         matrix, or one of another shape.
     SimulationError
-        In a run, where the matrix is singular to working precision: its reciprocal condition number,
-        estimated in the 1-norm, is below 2.2e-16, or an entry is not finite.
+        In a run, where the matrix is singular to working precision: its reciprocal condition
+        number, estimated in the 1-norm, is below 2.2e-16, or an entry is not finite.
 
     Examples
     --------

@@ -45,9 +45,9 @@ class Sensitivities(Mapping[str, np.ndarray]):
     """The derivatives of the recorded signals, by the names of the signals, and of the final state.
 
     Those of a scalar signal have the axes (row, parameter), those of a vector (row, entry,
-    parameter), of a matrix (row, row of the matrix, column, parameter), with the rows of the results. They are derivatives at a fixed time: at an event the
-    row before it and the row after it differ by the jump that the moving event makes. After a gap
-    they are nan.
+    parameter), of a matrix (row, row of the matrix, column, parameter), with the rows of the
+    results. They are derivatives at a fixed time: at an event the row before it and the row after
+    it differ by the jump that the moving event makes. After a gap they are nan.
 
     Examples
     --------

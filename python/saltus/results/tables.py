@@ -37,8 +37,8 @@ def extra(library: str, what: str, instead: str = "") -> Any:
 
 
 def columns_of(results: Results, taken: Iterable[str] = ()) -> dict[str, np.ndarray]:
-    """The recorded signals, each entry of a vector or a matrix by itself. ModelError if two columns would have
-    one name, or a name that is `taken`.
+    """The recorded signals, each entry of a vector or a matrix by itself. ModelError if two columns
+    would have one name, or a name that is `taken`.
     """
     columns: dict[str, np.ndarray] = {}
     for name, array in results.outputs.items():

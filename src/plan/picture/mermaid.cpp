@@ -100,7 +100,8 @@ std::string words_of(const Picture& picture, const Wire& wire) {
   if (!obvious(from.outputs, "out")) out = escaped(nth(from.outputs, wire.output));
   if (!obvious(to.inputs, "in"))
     out += text(out.empty() ? "" : " → ", escaped(nth(to.inputs, wire.input)));
-  if (wire.width > 1) out += text(out.empty() ? "" : " ", escaped(text("[", dimensions_of(wire), "]")));
+  if (wire.width > 1)
+    out += text(out.empty() ? "" : " ", escaped(text("[", dimensions_of(wire), "]")));
   return out;
 }
 

@@ -15,8 +15,7 @@ inline void require_matrix(const std::string& block, const char* what, const Mat
 /// ShapeMismatchError for an input that is no matrix.
 inline void require_matrix_signal(const std::string& block, const Shape& found) {
   if (!found.is_matrix())
-    throw ShapeMismatchError(text("block '", block, "': expected a matrix, found ",
-                                  in_words(found),
+    throw ShapeMismatchError(text("block '", block, "': expected a matrix, found ", in_words(found),
                                   "; give the block the rows and columns, if the entries of a "
                                   "matrix come row by row"));
 }
@@ -24,8 +23,7 @@ inline void require_matrix_signal(const std::string& block, const Shape& found) 
 /// ShapeMismatchError for an input that is a matrix, at a block of vectors.
 inline void require_no_matrix(const std::string& block, const Shape& found) {
   if (found.is_matrix())
-    throw ShapeMismatchError(text("block '", block, "': expected a vector, found ",
-                                  in_words(found),
+    throw ShapeMismatchError(text("block '", block, "': expected a vector, found ", in_words(found),
                                   "; a Multiplexer of one input gives the entries of a matrix as a "
                                   "vector, row by row"));
 }
