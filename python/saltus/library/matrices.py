@@ -74,8 +74,8 @@ class MatrixMultiplication(Block, _core.MatrixMultiplication):
         if left_shape is None or right_shape is None:
             given = "left_shape" if right_shape is None else "right_shape"
             raise ModelError(
-                f"block '{own}': expected left_shape and right_shape, or neither, found {given}
-                only"
+                f"block '{own}': expected left_shape and right_shape, or neither; found "
+                f"{given} only"
             )
         super().__init__(
             own, _shape(own, "left_shape", left_shape), _shape(own, "right_shape", right_shape)
