@@ -20,6 +20,15 @@ Shape stretched(const std::string& block, std::span<const Shape> shapes) {
            found, "; bring them to one shape, for example with a Multiplexer"));
 }
 
+void require_shape(const std::string& block, std::string_view what, const Shape& found,
+                   std::string_view state, const Shape& expected) {
+  insist(found.size == 1 || found.size == expected.size, block, what, " has ", found.size,
+         " values, ", state, " has ", expected.size, "; expected one value or as many");
+  insist(found.size == 1 || found.columns == expected.columns, block, what, " has the ",
+         in_words(found), ", ", state, " ", in_words(expected),
+         "; expected one value or this shape");
+}
+
 ShapeRule stretch(std::string block, std::vector<Shape> parameters) {
   return [block = std::move(block),
           parameters = std::move(parameters)](std::span<const Shape> inputs) {

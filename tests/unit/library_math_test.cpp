@@ -93,7 +93,7 @@ TEST_CASE("vectors of different widths are refused, with the block's name and th
   CHECK(contains(model_error([&] { Bench<Gain>({two}, three); }), "found the shapes (3,), (2,)"));
   CHECK(contains(
       model_error([&] { Bench<Saturate>({two}, Saturate::Options{.upper_limit = three}); }),
-      "widths 3, 2"));
+      "shapes (3,), (2,)"));
   CHECK(contains(model_error([&] { Bench<Demultiplexer>({three}, 2); }),
                  "width 3 cannot be cut into 2 equal parts"));
 }

@@ -163,6 +163,26 @@ TEST_CASE("what does not fit is refused with both shapes", "[shape]") {
       "one input gives the entries"));
 }
 
+TEST_CASE("a limit of a matrix is one number or has its shape", "[shape]") {
+  const Eigen::MatrixXd a = whole(2, 3, 1.0), below = a.array() - 20.0, turned = a.transpose();
+  const auto limited = [&](const Value& limit) {
+    Integrator("i", {.initial_state = a, .enable_limits = true, .lower_limit = limit});
+  };
+  CHECK_NOTHROW(limited(below));
+  CHECK_NOTHROW(limited(-20.0));
+  CHECK(
+      model_error([&] { limited(turned); }) ==
+      "block 'i': a limit has the shape (3, 2), initial_state shape (2, 3); expected one value or "
+      "this shape");
+  CHECK(contains(
+      model_error([&] { Derivative("d", {.filter_coefficient = turned, .initial_state = a}); }),
+      "filter_coefficient has the shape (3, 2)"));
+  CHECK(contains(model_error([&] {
+                   SecondOrderIntegrator("s", {.initial_position = a, .initial_velocity = turned});
+                 }),
+                 "initial_velocity has the shape (3, 2)"));
+}
+
 namespace {
 
 /// Y = U^T of a 2 x 3 matrix, by a callback that sees matrices.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "saltus/library/detail/arguments.hpp"
@@ -18,6 +19,11 @@ inline double entry(const VectorView& values, Index i) {
 
 /// The shape that fits all inputs. Throws ShapeMismatchError if signals of different shapes meet.
 Shape stretched(const std::string& block, std::span<const Shape> shapes);
+
+/// Refuses a value of a block, called `what`, whose shape differs from that of `state`, and that is
+/// not one number.
+void require_shape(const std::string& block, std::string_view what, const Shape& found,
+                   std::string_view state, const Shape& expected);
 
 /// The rule for an output that combines the block's inputs with `parameters`, entry by entry.
 ShapeRule stretch(std::string block, std::vector<Shape> parameters = {});
