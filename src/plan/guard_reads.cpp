@@ -63,8 +63,10 @@ void add_reads(const Plan& plan, Stepwise& stepwise, const std::vector<int>& sig
 void detail::add_reads_of_guards(Plan& plan) {
   Stepwise stepwise(plan);
   plan.look_slots = plan.guard_slots;
-  for (GuardGroup& group : plan.guards)
+  for (GuardGroup& group : plan.guards) {
+    group.stepped = stepwise.is_guard(group);
     add_reads(plan, stepwise, hidden_behind(plan, stepwise, group), group.reads, plan.look_slots);
+  }
 }
 
 }  // namespace saltus

@@ -20,6 +20,7 @@ GuardSet::GuardSet(const Plan& plan) : g(plan.look_slots, 1.0) {
       guards_.push_back({{.direction = group.direction,
                           .monitor = group.monitor,
                           .jumps = group.is_opaque(),
+                          .stepped = group.stepped,
                           .group = static_cast<int>(i),
                           .entry = entry}});
     }

@@ -8,24 +8,31 @@ using namespace support;
 
 namespace {
 
+/// A guard that varies as the state does, or a function of which nothing is known.
+ZeroCrossing guard(bool called) {
+  if (called) return {.name = "g", .guard = [](const At& at) { return at.x[0]; }};
+  return {.name = "g", .formula = [](const auto& at) { return at.x(0); }};
+}
+
 struct Parts {
-  Parts() {
+  explicit Parts(bool called)
+      : leaf("leaf",
+             [=](Leaf& l) { declare_ramp(l), l.declare_zero_crossing(guard(called)); }),
+        machine(compile(leaf)),
+        guards(machine.plan()) {
     machine.load(leaf.create_context());
     guards.select(machine.seen_guards().groups(), machine.plan());
   }
-  Leaf leaf{"leaf", [](Leaf& l) {
-              declare_ramp(l);
-              l.declare_zero_crossing({.name = "g", .guard = [](const At& at) { return at.x[0]; }});
-            }};
-  Machine machine{compile(leaf)};
-  GuardSet guards{machine.plan()};
+  Leaf leaf;
+  Machine machine;
+  GuardSet guards;
 };
 
 /// Steps of one second, in which the test moves a guard.
 class Steps : private Parts, private Glance {
  public:
-  explicit Steps(double begin)
-      : Glance(Parts::machine, Parts::guards, Parts::guards.active().monitors) {
+  explicit Steps(double begin, bool called = false)
+      : Parts(called), Glance(Parts::machine, Parts::guards, Parts::guards.active().monitors) {
     scan_points_ = 4;
     guards_->arm(0, 1);
     guards_->g[0] = begin;
@@ -66,4 +73,11 @@ TEST_CASE("a guard that has moved fast is watched for some more steps", "[glance
   CHECK(steps_until_out_of_reach(1.0) >= 2);
   CHECK(steps_until_out_of_reach(1.0) <= 5);
   CHECK(steps_until_out_of_reach(100.0) == 0);
+}
+
+TEST_CASE("a called guard that had one value at both ends of a step needs a look", "[glance]") {
+  Steps steps(1000.0, true);
+  CHECK(steps.needs_no_look(999.0));
+  CHECK_FALSE(steps.needs_no_look(999.0));
+  CHECK(steps.needs_no_look(998.0));
 }

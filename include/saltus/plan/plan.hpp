@@ -76,6 +76,7 @@ struct GuardGroup {
   List<int> leaves = {};           // the blocks whose continuous state changes it
   std::vector<int> controls = {};  // nodes: it is seen while all of them are true
   List<ReadSlot> reads = {};       // values that may vary while it is constant
+  bool stepped = false;            // it may be constant while what it reads varies
 
   bool is_crossing() const { return kind == Kind::crossing; }
   bool is_opaque() const { return kind == Kind::opaque; }

@@ -38,10 +38,11 @@ class Glance : protected Narrower {
     version_ = guards_->version();
     set_limits();
     plain_.clear();
-    jumps_ = false;
+    jumps_ = stepped_ = false;
     for (const std::size_t k : located_->slots) {
       plain_.push_back((*guards_)[k].plain_side());
       jumps_ = jumps_ || (*guards_)[k].jumps;
+      stepped_ = stepped_ || (*guards_)[k].stepped;
     }
   }
   /// After a root there is no need to look up the records, because the engine writes them next.
@@ -53,7 +54,7 @@ class Glance : protected Narrower {
   /// Anal. 9 (1972) 379). The locator still looks into such a step from time to time. How fast a
   /// guard moved says nothing of a function whose reads are looked at, because it may have steps.
   [[gnu::always_inline]] bool out_of_reach(double length) const {
-    if (jumps_ || !located_->reads.empty()) return false;
+    if (jumps_ || !located_->reads.empty() || (stepped_ && some_was_constant())) return false;
     const double *high = high_.data(), *last = guards_->g.data(), *speed = speed_.data();
     const double* plain = plain_.data();
     for (const std::size_t k : located_->slots) {
@@ -151,10 +152,19 @@ class Glance : protected Narrower {
   double end_at_ = 0.0;  // where the part of a step that is searched ends
 
  private:
+  /// Whether a guard that may have steps had one value at the begin and at the end of the step. Then
+  /// its speed says nothing.
+  bool some_was_constant() const {
+    return std::ranges::any_of(located_->slots, [&](std::size_t k) {
+      return (*guards_)[k].stepped && high_[k] == guards_->g[k];
+    });
+  }
+
   List<double> plain_;         // plain_side() of each active guard
   List<double> speed_;         // [1/s] recent speed of each guard
   std::int64_t version_ = -1;  // of the records from which limits_ and plain_ were made
   bool jumps_ = false;         // some active guard takes two values only
+  bool stepped_ = false;       // some active guard may be constant while the state varies
 };
 
 }  // namespace saltus

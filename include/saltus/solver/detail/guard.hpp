@@ -37,6 +37,7 @@ struct GuardTraits {
   Direction direction = Direction::crosses_zero;
   bool monitor = false;  ///< located and logged, stops nothing
   bool jumps = false;    ///< takes only two values: located by bisection
+  bool stepped = false;  ///< may be constant while the state varies
   int group = -1;        ///< index in the plan's list of guards
   int entry = 0;         ///< index in that group
 };
