@@ -52,6 +52,10 @@ TEST_CASE("a shape says its dimensions, and the places of its entries row by row
   CHECK(entry_place(Shape::scalar(), 0).empty());
 }
 
+TEST_CASE("a place is no larger for knowing the columns of a matrix", "[shape]") {
+  CHECK(sizeof(Place) == 3 * sizeof(Index));
+}
+
 TEST_CASE("a port takes a signal of its shape; one entry fits a scalar port", "[shape]") {
   const Shape scalar = Shape::scalar(), single = Shape::of(1), six = Shape::of(6);
   const Shape flat = Shape::matrix(1, 1), wide = Shape::matrix(2, 3), tall = Shape::matrix(3, 2);
