@@ -71,8 +71,8 @@ void bind_arithmetic(py::module_& module) {
       .def(py::init([](const std::string& name, Handle input_array, Handle output_array,
                        std::string_view interpolation, std::string_view extrapolation) {
         const Arguments of(name);
-        return std::make_unique<LookupTable1d>(name, of.value(input_array, "input_array").values,
-                                               of.value(output_array, "output_array").values,
+        return std::make_unique<LookupTable1d>(name, of.vector(input_array, "input_array"),
+                                               of.vector(output_array, "output_array"),
                                                LookupTable1dOptions{interpolation, extrapolation});
       }));
   py::class_<LookupTable2d, System>(module, "LookupTable2d")
@@ -80,7 +80,7 @@ void bind_arithmetic(py::module_& module) {
                        std::string_view extrapolation) {
         const Arguments of(name);
         return std::make_unique<LookupTable2d>(
-            name, of.value(input_x, "input_x").values, of.value(input_y, "input_y").values,
+            name, of.vector(input_x, "input_x"), of.vector(input_y, "input_y"),
             of.matrix(table, "output_table"), LookupTable2dOptions{extrapolation});
       }));
   py::class_<LookupTableNd, System>(module, "LookupTableNd")
@@ -88,21 +88,24 @@ void bind_arithmetic(py::module_& module) {
                        std::string_view extrapolation) {
         const Arguments of(name);
         std::vector<Eigen::VectorXd> points;
-        for (const py::object& axis : axes) points.push_back(of.value(axis, "input_axes").values);
-        return std::make_unique<LookupTableNd>(name, points, of.value(table, "output_table").values,
+        for (const py::object& axis : axes) points.push_back(of.vector(axis, "input_axes"));
+        return std::make_unique<LookupTableNd>(name, points, of.vector(table, "output_table"),
                                                LookupTableNdOptions{extrapolation});
       }));
   using Rectangle = std::pair<Index, Index>;
-  const auto shape_of = [](const Rectangle& of) { return MatrixShape{of.first, of.second}; };
+  const auto rectangle = [](const Rectangle& of) { return MatrixShape{of.first, of.second}; };
   py::class_<MatrixInversion, System>(module, "MatrixInversion")
+      .def(py::init<std::string>())
       .def(py::init<std::string, Index>());
   py::class_<MatrixMultiplication, System>(module, "MatrixMultiplication")
-      .def(py::init([shape_of](const std::string& name, Rectangle left, Rectangle right) {
-        return std::make_unique<MatrixMultiplication>(name, shape_of(left), shape_of(right));
+      .def(py::init<std::string>())
+      .def(py::init([rectangle](const std::string& name, Rectangle left, Rectangle right) {
+        return std::make_unique<MatrixMultiplication>(name, rectangle(left), rectangle(right));
       }));
   py::class_<MatrixTransposition, System>(module, "MatrixTransposition")
-      .def(py::init([shape_of](const std::string& name, Rectangle shape) {
-        return std::make_unique<MatrixTransposition>(name, shape_of(shape));
+      .def(py::init<std::string>())
+      .def(py::init([rectangle](const std::string& name, Rectangle shape) {
+        return std::make_unique<MatrixTransposition>(name, rectangle(shape));
       }));
   py::class_<MinMax, System>(module, "MinMax").def(py::init<std::string, std::string_view, int>());
   py::class_<Multiplexer, System>(module, "Multiplexer").def(py::init<std::string, int>());

@@ -65,7 +65,7 @@ void bind_discrete_linear(py::module_& module) {
           [](const std::string& name, double dt, Numbers coefficients, Numbers initial_state) {
             const Arguments of(name);
             return std::make_unique<FilterDiscrete>(
-                name, dt, of.value(coefficients, "b_coefficients").values,
+                name, dt, of.vector(coefficients, "b_coefficients"),
                 FilterDiscreteOptions{of.value(initial_state, "initial_state")});
           }));
   bind_integrator_discrete(module);
@@ -85,7 +85,7 @@ void bind_discrete_linear(py::module_& module) {
                        Numbers initial_state) {
         const Arguments of(name);
         return std::make_unique<TransferFunctionDiscrete>(
-            name, dt, of.value(numerator, "num").values, of.value(denominator, "den").values,
+            name, dt, of.vector(numerator, "num"), of.vector(denominator, "den"),
             TransferFunctionDiscreteOptions{of.optional_vector(initial_state, "initial_state")});
       }));
 }

@@ -44,10 +44,10 @@ py::dict columns(Outcomes&& o) {
   };
   py::dict signals;
   for (Outcomes::Signal& signal : o.signals) {
-    std::vector<py::ssize_t> dimensions{runs};
+    Dimensions dimensions{runs};
     if (!o.times.empty()) dimensions.push_back(static_cast<py::ssize_t>(o.times.size()));
-    if (signal.shape.vector) dimensions.push_back(signal.shape.size);
-    signals[py::str(signal.name)] = moved(std::move(signal.values), std::move(dimensions));
+    signals[py::str(signal.name)] =
+        moved(std::move(signal.values), dimensions_of(signal.shape, std::move(dimensions)));
   }
   const py::dict said = reasons(o);
   return py::dict("status"_a = moved(std::move(o.status), {runs}), "reasons"_a = said,

@@ -8,10 +8,10 @@ namespace saltus::python {
 
 namespace {
 
-/// A number, or a read-only array.
+/// A number, or a read-only array of one or two dimensions.
 py::object shown(const SignalValue& value) {
   if (!value.shape.vector) return py::float_(value.values[0]);
-  return read_only_array({value.values.size()}, value.values.data());
+  return read_only_array(dimensions_of(value.shape), value.values.data());
 }
 
 void fix_input(System& system, int index, py::handle value) {
@@ -25,12 +25,7 @@ void fix_input(System& system, int index, py::handle value) {
                           "have their sources; fix an input of the diagram"));
   }
   const Array numbers = to_array(value, what);
-  if (numbers.ndim() > 1) {
-    throw ModelError(text(what, ": expected a number or a vector, found an array of ",
-                          numbers.ndim(), " dimensions"));
-  }
-  if (numbers.ndim() == 0) return system.fix_input(index, *numbers.data());
-  system.fix_input(index, Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size()));
+  system.fix_input(index, as_vector(numbers), shape_of(dimensions_of(numbers), what));
 }
 
 }  // namespace

@@ -28,13 +28,15 @@ void let_collect(PyHeapTypeObject* heap_type) {
 
 PythonLeaf& leaf_of(py::handle self) { return self.cast<PythonLeaf&>(); }
 
-/// () is a scalar, (n,) is a vector of n entries.
-std::optional<Shape> shape_from(const std::optional<Dimensions>& dimensions) {
-  if (!dimensions) return std::nullopt;
-  if (dimensions->empty()) return Shape::scalar();
-  Index size = 1;
-  for (const auto n : *dimensions) size *= n;
-  return Shape::of(size);
+/// () is a scalar, (n,) is a vector of n entries, (m, n) a matrix of m rows.
+std::optional<Shape> shape_from(const std::optional<Dimensions>& dimensions,
+                                const std::string& what) {
+  return dimensions ? std::optional(shape_of(*dimensions, what)) : std::nullopt;
+}
+
+/// A state of more than two dimensions is shown as a vector of its numbers.
+Shape shape_of_state(const Dimensions& dimensions, Index size) {
+  return dimensions.size() > 2 ? Shape::of(size) : shape_of(dimensions, "state");
 }
 
 /// Entries of a Jacobian as (row, column).
@@ -148,14 +150,17 @@ int declare_output_port(py::handle self, py::object function, std::string name,
                                    .role = Role::output,
                                    .formula = formula,
                                    .index = count_of(leaf.declarations().outputs)}),
-                         shape_from(shape), boolean, all, sampler);
+                         shape_from(shape, text("block '", leaf.name(), "': ", what)), boolean, all,
+                         sampler);
 }
 
 /// A state without a copy and without a call.
 int declare_view(py::handle self, std::string name, Space space) {
   PythonLeaf& leaf = leaf_of(self);
   const bool x = space == Space::x;
-  const Shape shape = *shape_from(x ? leaf.state_dimensions() : leaf.discrete_dimensions());
+  const Declarations& d = leaf.declarations();
+  const Shape shape = shape_of_state(x ? leaf.state_dimensions() : leaf.discrete_dimensions(),
+                                     x ? d.continuous.initial.size() : d.discrete.size());
   return leaf.declare_output_port({.name = std::move(name),
                                    .shape = shape,
                                    .reads = x ? Reads::continuous_state : Reads::discrete_state,
@@ -201,7 +206,10 @@ void bind_leaf_system(py::module_& module) {
            })
       .def("declare_input_port",
            [](PythonLeaf& leaf, std::string name, const std::optional<Dimensions>& shape) {
-             return leaf.add_input(std::move(name), shape_from(shape));
+             const std::string what =
+                 text("block '", leaf.name(), "': input '",
+                      name.empty() ? text("in_", leaf.input_names().size()) : name, "'");
+             return leaf.add_input(std::move(name), shape_from(shape, what));
            })
       .def("declare_output_port", &declare_output_port)
       .def("declare_continuous_state_output",

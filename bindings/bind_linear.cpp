@@ -43,7 +43,7 @@ void bind_linear(py::module_& module) {
                        Handle initial_state, std::optional<double> initial_output) {
         const Arguments of(name);
         return std::make_unique<TransferFunction>(
-            name, of.value(numerator, "num").values, of.value(denominator, "den").values,
+            name, of.vector(numerator, "num"), of.vector(denominator, "den"),
             TransferFunctionOptions{of.optional_vector(initial_state, "initial_state"),
                                     initial_output});
       }))

@@ -25,11 +25,9 @@ LinearInput input_of(const NamedValue& named) {
   if (value.is_none()) return name;
   const std::string what = text("linearize: the value of input '", name, "'");
   const Array numbers = to_array(value, what);
-  if (numbers.ndim() > 1)
-    throw ModelError(text(what, ": expected a number or a vector, found an array of ",
-                          numbers.ndim(), " dimensions"));
-  if (numbers.ndim() == 0) return {name, *numbers.data()};
-  return {name, Eigen::VectorXd(as_vector(numbers))};
+  LinearInput input(name, Eigen::VectorXd(as_vector(numbers)));
+  input.shape = shape_of(dimensions_of(numbers), what);
+  return input;
 }
 
 std::unique_ptr<Linearizer> made(const System& system, const std::vector<NamedValue>& inputs,

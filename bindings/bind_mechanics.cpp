@@ -26,7 +26,7 @@ void bind_mechanics(py::module_& module) {
                        const py::object& rates) {
         const Arguments of(name);
         const auto vector = [&](const py::object& numbers, std::string_view what, Index n) {
-          const Eigen::VectorXd found = of.value(numbers, what).values;
+          const Eigen::VectorXd found = of.vector(numbers, what);
           detail::insist(found.size() == n, name, what, " has ", found.size(), " values; expected ",
                          n);
           return found;

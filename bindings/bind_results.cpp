@@ -7,6 +7,7 @@
 #include <pybind11/stl.h>
 
 #include "interpreter.hpp"
+#include "numbers.hpp"
 #include "python_results.hpp"
 
 namespace saltus::python {
@@ -37,8 +38,7 @@ py::ssize_t rows(const SharedRecord& results, const RecordedSignal& signal) {
 py::dict outputs(const SharedRecord& results) {
   py::dict all;
   for (RecordedSignal& signal : results->signals) {
-    std::vector<py::ssize_t> dimensions{rows(results, signal)};
-    if (signal.shape.vector) dimensions.push_back(signal.shape.size);
+    Dimensions dimensions = dimensions_of(signal.shape, {rows(results, signal)});
     all[py::str(signal.name)] = column(results, signal.values, std::move(dimensions));
   }
   return all;
@@ -64,11 +64,8 @@ py::tuple at(const SharedRecord& results, const std::vector<double>& times, bool
   const auto n = static_cast<py::ssize_t>(times.size());
   py::dict outputs;
   for (std::size_t i = 0; i < signals.size(); ++i) {
-    const Shape& shape = results->signals[i].shape;
-    std::vector<py::ssize_t> dimensions{n};
-    if (shape.vector) dimensions.push_back(shape.size);
     outputs[py::str(results->signals[i].name)] =
-        py::array_t<double>(std::move(dimensions), signals[i].data());
+        py::array_t<double>(dimensions_of(results->signals[i].shape, {n}), signals[i].data());
   }
   const py::ssize_t width = results->trajectory.plan()->nx;
   return py::make_tuple(py::array_t<double>({n, width}, states.data()), outputs);
@@ -149,8 +146,7 @@ py::object sensitivities(const SharedRecord& results) {
   py::dict outputs;
   for (std::size_t i = 0; i < all.signals.size(); ++i) {
     const RecordedSignal& signal = results->signals[i];
-    std::vector<py::ssize_t> dimensions{rows(results, signal)};
-    if (signal.shape.vector) dimensions.push_back(signal.shape.size);
+    Dimensions dimensions = dimensions_of(signal.shape, {rows(results, signal)});
     dimensions.push_back(m);
     outputs[py::str(signal.name)] =
         py::array_t<double>(std::move(dimensions), all.signals[i].data());

@@ -21,7 +21,7 @@ void bind_signals(py::module_& module) {
       .def(py::init([](const std::string& name, Handle times, Handle values,
                        std::string_view interpolation, std::string_view extrapolation) {
         const Arguments of(name);
-        return std::make_unique<DataSource>(name, of.value(times, "times").values,
+        return std::make_unique<DataSource>(name, of.vector(times, "times"),
                                             of.columns(values, "values"),
                                             DataSourceOptions{interpolation, extrapolation});
       }));

@@ -48,6 +48,13 @@ py::object result_size(const BlockTraces& block, const Function& function) {
   }
 }
 
+/// The rows and columns of an output that is a matrix; otherwise None.
+py::object result_shape(const BlockTraces& block, const Function& function) {
+  if (function.role != Role::output) return py::none();
+  const Shape& shape = nth(block.outputs, function.index);
+  return shape.is_matrix() ? py::object(as_tuple(dimensions_of(shape))) : py::object(py::none());
+}
+
 py::dict function_of(const BlockTraces& block, int k) {
   const Function& function = block.leaf->function(k);
   py::dict all;
@@ -61,6 +68,7 @@ py::dict function_of(const BlockTraces& block, int k) {
   all["out"] = block.leaf->in_place(function);
   all["compiled"] = function.compiled != nullptr;
   all["result_size"] = result_size(block, function);
+  all["result_shape"] = result_shape(block, function);
   return all;
 }
 
@@ -107,9 +115,9 @@ py::dict facts_of(const BlockTraces& block) {
   const Declarations& d = leaf.declarations();
   py::list inputs, functions;
   for (std::size_t i = 0; i < block.inputs.size(); ++i) {
-    const Index size = block.inputs[i].size;
-    const bool number = size == 1 && !leaf.vector_input(static_cast<int>(i));
-    inputs.append(number ? py::tuple() : py::make_tuple(size));
+    Shape shape = block.inputs[i];
+    shape.vector = !leaf.number_input(static_cast<int>(i), shape.size, shape.columns);
+    inputs.append(as_tuple(shape.vector ? dimensions_of(shape) : Dimensions{}));
   }
   for (int k = 0; k < count_of(leaf.functions()); ++k) functions.append(function_of(block, k));
   py::dict all;

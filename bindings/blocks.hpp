@@ -15,13 +15,20 @@ class Arguments {
   Value value(py::handle numbers, std::string_view name) const {
     return to_value(numbers, what(name));
   }
+  /// A number counts as a vector of one entry.
+  Eigen::VectorXd vector(py::handle numbers, std::string_view name) const {
+    Value value = this->value(numbers, name);
+    if (value.shape().is_matrix())
+      throw ModelError(text(what(name), ": expected a number or a vector, found a matrix of shape ",
+                            to_string(value.shape())));
+    return std::move(value.values);
+  }
   std::optional<Value> optional(py::handle numbers, std::string_view name) const {
     return to_optional_value(numbers, what(name));
   }
   /// A vector of numbers, if there is one.
   std::optional<Eigen::VectorXd> optional_vector(py::handle numbers, std::string_view name) const {
-    const auto value = optional(numbers, name);
-    return value ? std::optional(value->values) : std::nullopt;
+    return numbers.is_none() ? std::nullopt : std::optional(vector(numbers, name));
   }
 
   /// A matrix; a vector counts as its only column.

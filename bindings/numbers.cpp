@@ -86,6 +86,24 @@ Dimensions dimensions_of(const py::array& array) {
   return {array.shape(), array.shape() + array.ndim()};
 }
 
+Dimensions dimensions_of(const Shape& shape, Dimensions before) {
+  if (shape.is_matrix()) before.push_back(shape.rows());
+  if (shape.vector) before.push_back(shape.is_matrix() ? shape.columns : shape.size);
+  return before;
+}
+
+Shape shape_of(const Dimensions& dimensions, const std::string& what) {
+  if (dimensions.empty()) return Shape::scalar();
+  if (dimensions.size() == 1) return Shape::of(dimensions[0]);
+  if (dimensions.size() > 2)
+    throw ModelError(text(what, ": expected a number, a vector or a matrix, found an array of ",
+                          dimensions.size(), " dimensions"));
+  if (dimensions[0] == 0 || dimensions[1] == 0)
+    throw ModelError(text(what, ": expected a matrix of at least one row and one column, found ",
+                          dimensions[0], " x ", dimensions[1]));
+  return Shape::matrix(dimensions[0], dimensions[1]);
+}
+
 py::array read_only_array(const Dimensions& dimensions, const double* values) {
   Array array(dimensions);
   if (values != nullptr) std::copy_n(values, array.size(), array.mutable_data());
@@ -103,12 +121,19 @@ Eigen::VectorXd to_vector(py::handle numbers, const std::string& what) {
   return as_vector(to_array(numbers, what));
 }
 
+namespace {
+
+MatrixView as_matrix(const Array& array, const Shape& shape) {
+  return {array.data(), shape.rows(), shape.columns};
+}
+
+}  // namespace
+
 Value to_value(py::handle numbers, const std::string& what) {
   const Array array = to_array(numbers, what);
   if (array.ndim() == 0) return *array.data();
   if (array.ndim() == 1) return as_vector(array);
-  throw ModelError(text(what, ": expected a number or a vector, found an array of ", array.ndim(),
-                        " dimensions"));
+  return as_matrix(array, shape_of(dimensions_of(array), what));
 }
 
 std::optional<Value> to_optional_value(py::handle numbers, const std::string& what) {

@@ -20,7 +20,7 @@ using Dimensions = std::vector<py::ssize_t>;  ///< of an array; {} is a single n
 Array to_array(py::handle numbers, const std::string& what);
 /// The same numbers as one vector, with any dimensions.
 Eigen::VectorXd to_vector(py::handle numbers, const std::string& what);
-/// A number makes a scalar signal, a vector a vector signal.
+/// A number makes a scalar signal, a vector a vector signal, an array of two dimensions a matrix.
 Value to_value(py::handle numbers, const std::string& what);
 /// The value of numbers; empty for None.
 std::optional<Value> to_optional_value(py::handle numbers, const std::string& what);
@@ -38,6 +38,11 @@ void read_any_numbers(py::handle result, VectorRef out, const std::string& what)
 bool read_truths(py::handle result, VectorRef out);
 
 Dimensions dimensions_of(const py::array& array);
+/// () of a scalar, (n,) of a vector, (rows, columns) of a matrix; after `before`.
+Dimensions dimensions_of(const Shape& shape, Dimensions before = {});
+/// The shape of a signal with such dimensions; ModelError if there are more than two, or one of two
+/// is 0.
+Shape shape_of(const Dimensions& dimensions, const std::string& what);
 /// A new array with its own memory that Python code cannot write to; `values` may be null.
 py::array read_only_array(const Dimensions& dimensions, const double* values);
 /// The memory of an array's numbers, writable or not.

@@ -26,6 +26,14 @@ void set_array(Array& to, const Dimensions& dimensions, const VectorView& values
   std::copy_n(values.data(), values.size(), numbers_of(to));
 }
 
+/// Whether an array is a vector of this size, or a matrix of this size and these columns.
+bool has_dimensions(const py::object& array, Index size, Index columns) {
+  const auto* proxy = py::detail::array_proxy(array.ptr());
+  if (columns == 0) return proxy->nd == 1 && proxy->dimensions[0] == size;
+  return proxy->nd == 2 && proxy->dimensions[1] == columns &&
+         proxy->dimensions[0] * columns == size;
+}
+
 }  // namespace
 
 /// The truths of the relations that Python has declared; tracing may have added others after them.
@@ -71,11 +79,12 @@ void PythonLeaf::set_parameters(Frame& frame, const At& at, std::size_t place) c
 
 void PythonLeaf::set_input(py::object& to, const At& at, int i) const {
   const VectorView u = at.u[i];
-  const bool number = u.size() == 1 && !vector_input(i);
+  const Index columns = at.u.columns(i);
+  const bool number = number_input(i, u.size(), columns);
   if (to && number != PyFloat_CheckExact(to.ptr())) to = {};  // another plan, another shape
   if (number) return set_number(to, u[0]);
-  if (to && py::detail::array_proxy(to.ptr())->dimensions[0] != u.size()) to = {};
-  set_array(to, {u.size()}, u);
+  if (to && !has_dimensions(to, u.size(), columns)) to = {};
+  set_array(to, dimensions_of(Shape{u.size(), true, columns}), u);
 }
 
 /// Inserts the inputs of the function from `place` on; returns the place after them.
@@ -101,9 +110,10 @@ void PythonLeaf::set_out(Frame& frame, const Function& function, Index size) con
   if (!ours(frame.out) || size_of(frame.out) != size) {
     const Index n = declarations().continuous.initial.size();
     const bool as_state = function.role == Role::ode && !x_dimensions_.empty();
-    frame.out = Array(as_state                          ? x_dimensions_
-                      : function.role == Role::jacobian ? Dimensions{n, n}
-                                                        : Dimensions{size});
+    frame.out = Array(as_state ? x_dimensions_
+                      : function.role == Role::jacobian
+                          ? Dimensions{n, n}
+                          : dimensions_of(Shape{size, true, function.columns}));
   }
   std::fill_n(numbers_of(frame.out), size, std::bit_cast<double>(unwritten));
   frame.arguments.back() = frame.out.ptr();
@@ -228,9 +238,21 @@ void PythonLeaf::fill(int k, const At& at, VectorRef out) const {
   const Frame& frame = prepare(borrowed.frame, function, at, out.size());
   const py::object result = vectorcall(function, frame);
   if (in_place(function)) return take_out(function, frame, result, out);
+  if (function.columns > 0) require_matrix(function, result, out.size());
   if (read_plain_numbers(result, out)) return;
   if (is_guard(function.role) && read_truths(result, out)) return;
   read_any_numbers(result, out, whose(function));
+}
+
+/// Refuses a matrix of other rows and columns, whose entries would come in another order. Lists, and
+/// the entries row by row, are counted by the one who reads them.
+void PythonLeaf::require_matrix(const Function& function, py::handle result, Index size) const {
+  if (!py::isinstance<py::array>(result)) return;
+  const Dimensions found = dimensions_of(py::reinterpret_borrow<py::array>(result));
+  if (found.size() < 2 || found == Dimensions{size / function.columns, function.columns}) return;
+  throw ModelError(text(whose(function), " returned an array of shape ",
+                        std::string(py::str(result.attr("shape"))), ", expected ",
+                        to_string(Shape{size, true, function.columns})));
 }
 
 void PythonLeaf::take_out(const Function& function, const Frame& frame, py::handle result,

@@ -61,6 +61,7 @@ struct Function {
   Role role = Role::output;
   bool formula = false;           // a plan may compute it together with its neighbours
   int index = 0;                  // of its declaration, among those of its kind
+  Index columns = 0;              // of its result, if that is known to be a matrix
   bool in_place = false;          // whether it fills an array called `out`
   CompiledPointer compiled = {};  // in place of Python
   void* user_data = nullptr;      // of the compiled function

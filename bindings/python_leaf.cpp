@@ -53,9 +53,7 @@ bool PythonLeaf::has_parameter(std::string_view parameter) const {
 }
 
 int PythonLeaf::add_input(std::string port, std::optional<Shape> shape) {
-  const bool vector = shape && shape->vector;
   const int input = declare_input_port({.name = std::move(port), .shape = shape});
-  vector_inputs_.push_back(vector);
   forget_frames();
   return input;
 }

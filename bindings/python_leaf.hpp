@@ -52,7 +52,11 @@ class PythonLeaf final : public LeafSystem {
   const Dimensions& state_dimensions() const { return x_dimensions_; }
   const Dimensions& discrete_dimensions() const { return z_dimensions_; }
   const std::vector<Dimensions>& parameter_dimensions() const { return parameter_dimensions_; }
-  bool vector_input(int i) const { return vector_inputs_[i]; }
+  /// Whether input i comes as a float, if the wire has this shape.
+  bool number_input(int i, Index size, Index columns) const {
+    const std::optional<Shape>& declared = declarations().inputs[i].shape;
+    return declared ? !declared->vector : size == 1 && columns == 0;
+  }
   void add_parameter(const std::string& name, const py::array& value);
   int add_input(std::string name, std::optional<Shape> shape);
 
@@ -125,6 +129,8 @@ class PythonLeaf final : public LeafSystem {
   bool means_discrete(const Function& function, bool has_x, bool has_z) const;
   void write(int k, py::handle result, Next& next) const;
   void require_shape(int k, const std::optional<Shape>& shape) const;
+  Shape shape_of_result(int k, const std::optional<py::array>& found) const;
+  void require_matrix(const Function& function, py::handle result, Index size) const;
   void finish_outputs();
   void finish(OutputDeclaration& output, const Unfinished& entry, const Declarations& declared);
   std::string whose(const Function& function) const {
@@ -136,7 +142,6 @@ class PythonLeaf final : public LeafSystem {
   std::vector<Unfinished> unfinished_;
   Dimensions x_dimensions_{0}, z_dimensions_{0};
   std::vector<Dimensions> parameter_dimensions_;
-  List<bool> vector_inputs_;
   py::tuple keywords_;  // names of the parameters
 };
 

@@ -12,6 +12,7 @@ int PythonLeaf::add_output(std::string port, int function, std::optional<Shape> 
                            std::shared_ptr<const LeafSystem> sampler) {
   const InputList& inputs = this->function(function).inputs;
   require_shape(function, shape);
+  if (shape) functions_[function].columns = shape->columns;
   const int output = declare_output_port(
       {.name = std::move(port),
        .calc = vector_function(function),
@@ -33,7 +34,8 @@ void PythonLeaf::require_shape(int k, const std::optional<Shape>& shape) const {
   if (shape || !(function(k).compiled || function(k).in_place)) return;
   throw ModelError(text(whose(function(k)), ": it fills ",
                         function(k).compiled ? "memory" : "an array `out`",
-                        ", so say how much: shape=() for one number, shape=n for a vector"));
+                        ", so say how much: shape=() for one number, shape=n for a vector, "
+                        "shape=(m, n) for a matrix"));
 }
 
 /// Calls function k with the initial values of the block and every input filled with `value`.
@@ -48,7 +50,7 @@ py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes, double
   std::vector<Place> places;
   Index width = 0;
   for (const Shape& shape : shapes) {
-    places.push_back({Space::y, width, shape.size});
+    places.push_back({Space::y, width, shape.size, shape.columns});
     width += shape.size;
   }
   const Eigen::VectorXd u = Eigen::VectorXd::Constant(std::max<Index>(width, 1), value);
@@ -104,8 +106,14 @@ Shape PythonLeaf::shape_of(int k, std::span<const Shape> inputs) const {
   return locked([&] {
     constexpr std::array<Index, 1> known{0};
     const auto found = sample(k, {inputs.begin(), inputs.end()}, known);
-    return !found || found->ndim() == 0 ? Shape::scalar() : Shape::of(found->size());
+    return shape_of_result(k, found);
   });
+}
+
+/// A scalar if no call has succeeded: the run shows why.
+Shape PythonLeaf::shape_of_result(int k, const std::optional<py::array>& found) const {
+  return found ? saltus::python::shape_of(dimensions_of(*found), whose(function(k)))
+               : Shape::scalar();
 }
 
 /// Whether an output reads an input of its block.
@@ -133,8 +141,7 @@ void PythonLeaf::finish(OutputDeclaration& output, const Unfinished& entry,
   const bool reads = reads_inputs(output, declared);
   const auto found = sample(entry.function, shapes, std::span(guesses).first(reads ? 7 : 1));
   if (!entry.boolean) output.boolean = found && found->dtype().kind() == 'b';
-  if (!entry.shape && !reads)
-    output.shape = !found || found->ndim() == 0 ? Shape::scalar() : Shape::of(found->size());
+  if (!entry.shape && !reads) output.shape = shape_of_result(entry.function, found);
 }
 
 void PythonLeaf::collect(Structure& out, const std::string& path) const {

@@ -137,14 +137,14 @@ class InputPort:
         Parameters
         ----------
         value
-            A finite number, or a vector of them. None: the input is open again.
+            A finite number, or a vector or a matrix of them. None: the input is open again.
 
         Raises
         ------
         ModelError
-            For a value that is no number or vector, or is not finite, and for a block inside of a
-            diagram that C++ made. `connect` and `build` refuse an input that has a fixed value and
-            a wire, and so does a run.
+            For a value that is no number, vector or matrix, or is not finite, and for a block
+            inside of a diagram that C++ made. `connect` and `build` refuse an input that has a
+            fixed value and a wire, and so does a run.
 
         Examples
         --------

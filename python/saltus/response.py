@@ -30,8 +30,8 @@ def response(
     system
         A block or a diagram. It is not changed, and may be used elsewhere.
     inputs
-        A value for each input, in order: a number or a vector, which stays constant, or a source, a
-        system whose first output feeds the input. A source may be given more than once.
+        A value for each input, in order: a number, a vector or a matrix, which stays constant, or a
+        source, a system whose first output feeds the input. A source may be given more than once.
     t
         [s] A time, or several.
     options

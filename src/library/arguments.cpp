@@ -15,6 +15,11 @@ Value::Value(std::initializer_list<double> numbers)
 
 Value::Value(Eigen::VectorXd numbers) : values(std::move(numbers)), vector(true) {}
 
+Value::Value(const MatrixByRows& numbers)
+    : values(Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size())),
+      vector(true),
+      columns(numbers.cols()) {}
+
 namespace detail {
 
 void require_known(const std::string& block, std::string_view what, std::string_view word,

@@ -1,7 +1,7 @@
 // y_k = part k of u, which is cut into n_outputs equal parts.
 #include "saltus/library/demultiplexer.hpp"
 
-#include "saltus/library/detail/arguments.hpp"
+#include "saltus/library/detail/matrix_arguments.hpp"
 
 namespace saltus {
 
@@ -9,6 +9,7 @@ Demultiplexer::Demultiplexer(std::string name, int n_outputs) : LeafSystem(std::
   detail::require_count(this->name(), "output", n_outputs, 1);
   declare_input_port({.name = "in"});
   const auto part = [block = this->name(), n_outputs](std::span<const Shape> inputs) {
+    detail::require_no_matrix(block, inputs[0]);
     const Index width = inputs[0].size;
     detail::insist(width % n_outputs == 0, block, "an input of width ", width,
                    " cannot be cut into ", n_outputs,

@@ -8,9 +8,8 @@ namespace saltus {
 
 Derivative::Derivative(std::string name, const Options& options) : LeafSystem(std::move(name)) {
   const Value &coefficient = options.filter_coefficient, &initial = options.initial_state;
-  const Index found = coefficient.values.size(), expected = initial.values.size();
-  detail::insist(found == 1 || found == expected, this->name(), "filter_coefficient has ", found,
-                 " values, initial_state has ", expected, "; expected one value or as many");
+  detail::require_shape(this->name(), "filter_coefficient", coefficient.shape(), "initial_state",
+                        initial.shape());
   const ParameterIndex k = declare_dynamic_parameter("filter_coefficient", coefficient.values);
   declare_parameter_check(detail::positive(k, "filter_coefficient", " 1/s",
                                            ", several times the fastest frequency of u"));

@@ -1,7 +1,7 @@
 // y = u_0 . u_1 = u_0[0] u_1[0] + u_0[1] u_1[1] + ...
 #include "saltus/library/dot_product.hpp"
 
-#include "saltus/library/detail/arguments.hpp"
+#include "saltus/library/detail/matrix_arguments.hpp"
 
 namespace saltus {
 
@@ -9,6 +9,7 @@ DotProduct::DotProduct(std::string name) : LeafSystem(std::move(name)) {
   declare_input_port();
   declare_input_port();
   const auto number = [block = this->name()](std::span<const Shape> inputs) {
+    for (const Shape& shape : inputs) detail::require_no_matrix(block, shape);
     const Index a = inputs[0].size, b = inputs[1].size;
     detail::insist(a == b, block, "the inputs have the widths ", a, " and ", b,
                    "; expected two vectors of one width");

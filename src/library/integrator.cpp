@@ -28,9 +28,9 @@ void Integrator::require_sound(const Options& o) const {
   detail::insist(o.lower_limit || o.upper_limit, name(),
                  "enable_limits without a limit; give lower_limit, upper_limit or both");
   for (const auto& limit : {o.lower_limit, o.upper_limit}) {
-    const Index found = limit ? limit->values.size() : 1, expected = o.initial_state.values.size();
-    detail::insist(found == 1 || found == expected, name(), "a limit has ", found,
-                   " values, initial_state has ", expected, "; expected one value or as many");
+    if (limit)
+      detail::require_shape(name(), "a limit", limit->shape(), "initial_state",
+                            o.initial_state.shape());
   }
 }
 

@@ -103,21 +103,19 @@ RelationIndex SecondOrderIntegrator::declare_velocity_limit(const char* paramete
                            }});
 }
 
-void SecondOrderIntegrator::require_width(const char* what,
-                                          const std::optional<Value>& value) const {
-  const Index found = value ? value->values.size() : 1;
-  detail::insist(found == 1 || found == n_, name(), what, " has ", found,
-                 " values, initial_position has ", n_, "; expected one value or as many");
-}
-
 void SecondOrderIntegrator::require_sound(const Options& o) const {
   detail::insist(n_ > 0, name(), "initial_position is an empty vector; give at least one number");
   require_restitution(name(), o.restitution);
-  require_width("initial_velocity", o.initial_velocity);
-  require_width("lower_limit", o.lower_limit);
-  require_width("upper_limit", o.upper_limit);
-  require_width("lower_velocity_limit", o.lower_velocity_limit);
-  require_width("upper_velocity_limit", o.upper_velocity_limit);
+  const auto require_shape = [&](const char* what, const std::optional<Value>& value) {
+    if (value)
+      detail::require_shape(name(), what, value->shape(), "initial_position",
+                            o.initial_position.shape());
+  };
+  require_shape("initial_velocity", o.initial_velocity);
+  require_shape("lower_limit", o.lower_limit);
+  require_shape("upper_limit", o.upper_limit);
+  require_shape("lower_velocity_limit", o.lower_velocity_limit);
+  require_shape("upper_velocity_limit", o.upper_velocity_limit);
 }
 
 /// Throws ModelError for an entry that starts beyond a limit.

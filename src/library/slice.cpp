@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "saltus/library/detail/arguments.hpp"
+#include "saltus/library/detail/matrix_arguments.hpp"
 
 namespace saltus {
 
@@ -63,6 +63,7 @@ OutputDeclaration output_of(const std::string& block, const Chosen& chosen, bool
       .shape = {},
       .shape_rule =
           [=](std::span<const Shape> inputs) {
+            detail::require_no_matrix(block, inputs[0]);
             return chosen_shape(block, chosen, scalar, inputs[0].size);
           },
       .reads = Reads::inputs,

@@ -126,8 +126,8 @@ class Widths {
         const InputDeclaration& input = leaf.declared().inputs[i];
         if (source < 0 || !input.shape) continue;
         const std::optional<Shape>& found = shapes_[source];
-        if (found && found->size != input.shape->size)
-          throw_wrong_width(input.name, leaf.path, input.shape->size, found->size,
+        if (found && !input.takes(*found))
+          throw_wrong_shape(input.name, leaf.path, *input.shape, *found,
                             text("output '", wiring_.name_of(source), "'"));
       }
     }

@@ -65,8 +65,8 @@ void System::fix_input(int index, double value) {
   fix(index, {Eigen::VectorXd::Constant(1, value), Shape::scalar()});
 }
 
-void System::fix_input(int index, const Eigen::VectorXd& value) {
-  fix(index, {value, Shape::of(value.size())});
+void System::fix_input(int index, Eigen::VectorXd entries, const Shape& shape) {
+  fix(index, {std::move(entries), shape});
 }
 
 namespace {

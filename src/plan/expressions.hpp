@@ -61,6 +61,7 @@ class Expressions {
     tape::Symbol parameter(Index i) override { return symbol(graph().parameter(leaf_.p + i)); }
     tape::Symbol input(int k, Index i) override { return value(leaf_.inputs, k, i); }
     Index width(int k) override { return leaf_.input_places[k].size; }
+    Index columns(int k) override { return leaf_.input_places[k].columns; }
     tape::Symbol relation(RelationIndex r, Index i) override {
       return value(leaf_.relations, r.value, i);
     }

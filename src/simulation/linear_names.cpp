@@ -5,9 +5,8 @@
 
 namespace saltus {
 
-void add_entries(std::vector<std::string>& names, const std::string& name, Index size,
-                 bool vector) {
-  for (Index i = 0; i < size; ++i) names.push_back(vector ? text(name, "[", i, "]") : name);
+void add_entries(std::vector<std::string>& names, const std::string& name, const Shape& shape) {
+  for (Index i = 0; i < shape.size; ++i) names.push_back(name + entry_place(shape, i));
 }
 
 std::string prefix_of(const Plan& plan, const PlanLeaf& leaf) {

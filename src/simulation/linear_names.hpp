@@ -8,8 +8,8 @@
 
 namespace saltus {
 
-/// Adds "y", or "y[0]", "y[1]" for a vector.
-void add_entries(std::vector<std::string>& names, const std::string& name, Index size, bool vector);
+/// Adds "y", or "y[0]", "y[1]" for a vector, "y[0,0]", "y[0,1]" for a matrix.
+void add_entries(std::vector<std::string>& names, const std::string& name, const Shape& shape);
 /// "integrator.", or nothing where the system is one block.
 std::string prefix_of(const Plan& plan, const PlanLeaf& leaf);
 /// "integrator.x[0]", or the name that the block gave to the state.

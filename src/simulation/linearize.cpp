@@ -33,8 +33,7 @@ GivenInputs given(const System& system, const std::vector<LinearInput>& inputs) 
   for (const LinearInput& input : inputs) {
     const int port = port_of(system, input.name);
     if (port < 0) continue;
-    if (input.value && input.is_vector) with.fix_input(port, *input.value);
-    if (input.value && !input.is_vector) with.fix_input(port, (*input.value)[0]);
+    if (input.value) with.fix_input(port, *input.value, input.shape);
     if (!with.fixes_input(port))
       throw ModelError(text("linearize: input '", input.name, "' of system '", system.name(),
                             "' is open and has no value; expected the value at which to linearise, "
@@ -69,7 +68,7 @@ class Linearizer::Parts {
     rule_.emplace(at_.machine(), columns_);
     for (const Tap& tap : plan().taps) {
       const Shape& shape = plan().node(tap.node).shape;
-      add_entries(outputs_, tap.name, shape.size, shape.vector);
+      add_entries(outputs_, tap.name, shape);
     }
   }
 
@@ -102,8 +101,7 @@ class Linearizer::Parts {
     const LeafPort to = system_.input_target(port);
     const auto leaf = detail::LeafNumbers(plan()).find(to.leaf).value();
     const Node& node = plan().node(plan().leaf(leaf).inputs[to.index]);
-    add_columns(input.name, columns_.of_signal, node.place.offset, node.shape.size,
-                node.shape.vector);
+    add_columns(input.name, columns_.of_signal, node.place.offset, node.shape);
   }
 
   void add_parameter(const LinearInput& input) {
@@ -115,7 +113,7 @@ class Linearizer::Parts {
     require_differentiable(entry, text("linearize: ", input.name));
     if (input.value)
       write_entry(layout_, entry, {input.value->data(), size_of(*input.value)}, input.name);
-    add_columns(input.name, columns_.of_parameter, entry.first, entry.size, entry.size > 1);
+    add_columns(input.name, columns_.of_parameter, entry.first, {entry.size, entry.size > 1, 0});
     parameters_.push_back({input, entry});
   }
 
@@ -134,13 +132,13 @@ class Linearizer::Parts {
     return static_cast<std::size_t>(values.size());
   }
 
-  void add_columns(const std::string& name, List<Index>& of, Index first, Index size, bool vector) {
-    for (Index i = 0; i < size; ++i) {
+  void add_columns(const std::string& name, List<Index>& of, Index first, const Shape& shape) {
+    for (Index i = 0; i < shape.size; ++i) {
       if (of[first + i] >= 0)
         throw ModelError(text("linearize: input '", name, "' is named twice"));
       of[first + i] = columns_.size++;
     }
-    add_entries(inputs_, name, size, vector);
+    add_entries(inputs_, name, shape);
   }
 
   Context with_values(const Context& context) const {
@@ -195,7 +193,7 @@ class Linearizer::Parts {
     for (const int node : rule_->truths()) {
       const Shape& shape = plan().node(node).shape;
       std::vector<std::string> names;
-      add_entries(names, plan().name_of(plan().node(node)), shape.size, shape.vector);
+      add_entries(names, plan().name_of(plan().node(node)), shape);
       const Eigen::VectorXd values = rule_->value(node);
       for (Index i = 0; i < shape.size; ++i) found.frozen.push_back({nth(names, i), values[i]});
     }
@@ -208,7 +206,7 @@ class Linearizer::Parts {
       if (!is_seen(group, at_.machine())) continue;
       const Eigen::VectorXd values = rule_->level(function_of_guard(plan(), group)).value;
       std::vector<std::string> names;
-      add_entries(names, group.name, group.size, group.size > 1);
+      add_entries(names, group.name, {group.size, group.size > 1, 0});
       for (Index i = 0; i < group.size; ++i)
         found.guards.push_back({nth(names, i), values[i], group.direction});
     }

@@ -41,6 +41,11 @@ std::string head(const Results& results) {
   return text(to_string(results.status), ", ", rows, " rows, ", span);
 }
 
+/// "3" or "2, 3".
+std::string dimensions(const Shape& shape) {
+  return shape.is_matrix() ? text(shape.rows(), ", ", shape.columns) : text(shape.size);
+}
+
 std::string outputs(const Results& results) {
   std::vector<std::string> parts;
   for (const RecordedSignal& signal : results.signals) {
@@ -50,7 +55,7 @@ std::string outputs(const Results& results) {
             ? static_cast<std::size_t>(static_cast<Index>(signal.values.size()) / width)
             : results.time.size();
     parts.push_back(signal.shape.vector
-                        ? text(signal.name, " (", rows, ", ", signal.shape.size, ")")
+                        ? text(signal.name, " (", rows, ", ", dimensions(signal.shape), ")")
                         : text(signal.name, " (", rows, ",)"));
   }
   return parts.empty() ? "nothing recorded" : joined(parts, ", ");

@@ -74,9 +74,11 @@ def test_a_new_fixed_value_counts_for_the_next_run():
 
 def test_a_fixed_value_of_another_width_counts_too():
     square = FeedthroughBlock(lambda u: u * u)
-    for value in (3.0, [1.0, 2.0], [[4.0]], 5.0):
-        if np.ndim(value) == 2:
-            with pytest.raises(ModelError, match=r"expected a number or a vector, .* 2 dimensions"):
+    for value in (3.0, [1.0, 2.0], [[4.0]], [[[1.0]]], [[1.0, 2.0], [3.0, 4.0]], 5.0):
+        if np.ndim(value) == 3:
+            with pytest.raises(
+                ModelError, match=r"expected a number, a vector or a matrix, .* 3 dim"
+            ):
                 square.input().fix_value(value)
             continue
         square.input().fix_value(value)
@@ -112,7 +114,9 @@ def test_an_input_has_one_source():
         builder.connect(clock.output(), gain.input())
 
 
-@pytest.mark.parametrize("value", [np.nan, [1.0, np.inf], [], "much", [[1.0]]])
+@pytest.mark.parametrize(
+    "value", [np.nan, [1.0, np.inf], [], "much", [[[1.0]]], [[]], [[1.0], [2.0, 3.0]]]
+)
 def test_impossible_fixed_values_are_refused(value):
     with pytest.raises(ModelError, match="input"):
         Gain(2.0, name="gain").input().fix_value(value)

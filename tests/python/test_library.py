@@ -182,8 +182,9 @@ def test_all_is_all():
     [
         (lambda: Constant("x", name="c"), "block 'c': value: expected numbers, found 'x' (str)"),
         (
-            lambda: Constant([[1.0]], name="c"),
-            "block 'c': value: expected a number or a vector, found an array of 2 dimensions",
+            lambda: Constant([[[1.0]]], name="c"),
+            "block 'c': value: expected a number, a vector or a matrix, found an array of 3 "
+            "dimensions",
         ),
         (lambda: Gain(None, name="k"), "block 'k': gain: expected numbers, found None"),
         (

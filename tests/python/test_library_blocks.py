@@ -33,9 +33,13 @@ response = saltus.response
         (DotProduct(), [[1.0, 2.0], [3.0, 4.0]], 11.0),
         (CrossProduct(), [[1.0, 2.0, 3.0], [-4.0, 5.0, 6.0]], [-3.0, -18.0, 13.0]),
         (ScalarBroadcast(2), [7.0], [7.0, 7.0]),
-        (MatrixMultiplication((2, 2), (2, 1)), [[1.0, 2.0, 3.0, 4.0], [5.0, 6.0]], [17.0, 39.0]),
-        (MatrixTransposition([1, 2]), [[1.0, 2.0]], [1.0, 2.0]),
-        (MatrixInversion(2), [[0.0, 2.0, 4.0, 0.0]], [0.0, 0.25, 0.5, 0.0]),
+        (
+            MatrixMultiplication((2, 2), (2, 1)),
+            [[1.0, 2.0, 3.0, 4.0], [5.0, 6.0]],
+            [[17.0], [39.0]],
+        ),
+        (MatrixTransposition([1, 2]), [[1.0, 2.0]], [[1.0], [2.0]]),
+        (MatrixInversion(2), [[0.0, 2.0, 4.0, 0.0]], [[0.0, 0.25], [0.5, 0.0]]),
         (TransferFunction([3.0], [2.0]), [4.0], 6.0),
         (LTISystem(-1, 1, 2, 5), [1.0], 5.0),
         (Derivative(10.0), [2.0], 20.0),
@@ -44,7 +48,7 @@ response = saltus.response
     ids=lambda value: type(value).__name__ if isinstance(value, saltus.System) else "",
 )
 def test_values(block, inputs, expected):
-    assert response(block, *inputs) == pytest.approx(expected, abs=1e-15)
+    assert response(block, *inputs) == pytest.approx(np.array(expected), abs=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -171,7 +175,7 @@ class TestResponse:
     ids=lambda value: type(value).__name__ if isinstance(value, saltus.System) else "",
 )
 def test_choices(block, inputs, expected):
-    assert response(block, *inputs) == pytest.approx(expected, abs=1e-15)
+    assert response(block, *inputs) == pytest.approx(np.array(expected), abs=1e-15)
 
 
 def test_a_table_that_has_no_value_ends_the_run():

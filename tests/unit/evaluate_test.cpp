@@ -147,7 +147,7 @@ TEST_CASE("a fixed value of another width than the input expects is refused", "[
   });
   leaf.fix_input(0, vec({1.0, 2.0, 3.0}));
   CHECK(message<ShapeMismatchError>([&] { compile(leaf); }) ==
-        "input 'u' of block 'leaf': expected 2 values, found 3 from its fixed value");
+        "input 'u' of block 'leaf': expected shape (2,), found shape (3,) from its fixed value");
 }
 
 TEST_CASE("impossible fixed values are refused", "[evaluate]") {

@@ -77,7 +77,8 @@ TEST_CASE("a width that does not fit is refused with both ports", "[flatten]") {
       builder.add<Integrator>("integrator", Integrator::Options{.initial_state = {0.0, 0.0}});
   builder.connect(vector.output(), integrator.input());
   CHECK(message<ModelError>([&] { builder.build(); }) ==
-        "input 'in' of block 'integrator': expected 2 values, found 3 from output 'vector.out'");
+        "input 'in' of block 'integrator': expected shape (2,), found shape (3,) from output "
+        "'vector.out'");
 }
 
 TEST_CASE("vectors of different widths that meet are refused", "[flatten]") {
@@ -87,7 +88,8 @@ TEST_CASE("vectors of different widths that meet are refused", "[flatten]") {
   auto& sum = builder.add<Adder>("sum");
   builder.connect(two.output(), sum.input(0)), builder.connect(three.output(), sum.input(1));
   CHECK(contains(message<ModelError>([&] { builder.build(); }),
-                 "block 'sum': expected scalars and vectors of one width, found the widths 2, 3"));
+                 "block 'sum': expected scalars and signals of one shape, found the shapes (2,), "
+                 "(3,); bring"));
 }
 
 TEST_CASE("a width that depends on itself around a loop is refused with the remedy", "[flatten]") {

@@ -112,5 +112,5 @@ TEST_CASE("options of an Integrator that contradict each other are refused", "[l
       model_error([] { Integrator("i", {.enable_limits = true, .upper_limit = Value{1.0, 2.0}}); }),
       "a limit has 2 values, initial_state has 1"));
   CHECK(model_error([] { Bench<Integrator>({Value{1.0, 2.0}}); }) ==
-        "input 'in' of block 'block': expected 1 values, found 2 from output 'u0.out'");
+        "input 'in' of block 'block': expected a scalar, found shape (2,) from output 'u0.out'");
 }

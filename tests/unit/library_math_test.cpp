@@ -87,13 +87,13 @@ TEST_CASE("vectors of different widths are refused, with the block's name and th
           "[library]") {
   const Value two{1.0, 2.0}, three{1.0, 2.0, 3.0};
   CHECK(model_error([&] { Bench<Adder>({two, three}, "++"); }) ==
-        "block 'block': expected scalars and vectors of one width, found the widths 2, 3; bring "
-        "them to one width, "
+        "block 'block': expected scalars and signals of one shape, found the shapes (2,), (3,); "
+        "bring them to one shape, "
         "for example with a Multiplexer");
-  CHECK(contains(model_error([&] { Bench<Gain>({two}, three); }), "found the widths 3, 2"));
+  CHECK(contains(model_error([&] { Bench<Gain>({two}, three); }), "found the shapes (3,), (2,)"));
   CHECK(contains(
       model_error([&] { Bench<Saturate>({two}, Saturate::Options{.upper_limit = three}); }),
-      "widths 3, 2"));
+      "shapes (3,), (2,)"));
   CHECK(contains(model_error([&] { Bench<Demultiplexer>({three}, 2); }),
                  "width 3 cannot be cut into 2 equal parts"));
 }

@@ -23,12 +23,26 @@ using VectorRef = Eigen::Map<Eigen::VectorXd>;         ///< writable column over
                                                        ///< object
 using MatrixRef = Eigen::Map<Eigen::MatrixXd>;         ///< writable matrix, column major
 
+/// A matrix stored row by row, as signals are.
+using MatrixByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using MatrixView = Eigen::Map<const MatrixByRows>;  ///< read-only signal as a matrix
+
+/// An output as a matrix to write: `by_rows(out, 3) = ...` for one of 3 columns.
+inline Eigen::Map<MatrixByRows> by_rows(VectorRef out, Index columns) {
+  return {out.data(), out.size() / columns, columns};
+}
+
 /// The machine's array that contains a signal. State outputs are views, never copies.
 enum class Space : int { x, z, p, y };
 
 /// The place of one signal.
 struct Place {
+  constexpr Place() = default;
+  constexpr Place(Space in, Index first, Index n, Index columns_of_matrix = 0)
+      : space(in), columns(static_cast<int>(columns_of_matrix)), offset(first), size(n) {}
+
   Space space = Space::y;
+  int columns = 0;  ///< of a matrix; 0 for a scalar and a vector
   Index offset = 0;
   Index size = 0;
 };
@@ -36,7 +50,8 @@ struct Place {
 /// The machine's arrays at the moment of a call. `x` changes from call to call, the others do not.
 using Bases = std::array<const double*, 4>;
 
-/// The inputs of a leaf. `u[i]` is input i as a vector; `u(i)` is its first entry, for scalars.
+/// The inputs of a leaf. `u[i]` is input i as a vector; `u(i)` is its first entry, for scalars;
+/// `u.matrix(i)` is a matrix.
 class Inputs {
  public:
   Inputs(const Place* places, int count, const Bases* bases)
@@ -44,6 +59,13 @@ class Inputs {
 
   VectorView operator[](int i) const { return {data(i), places_[i].size}; }
   double operator()(int i) const { return *data(i); }
+  /// Input i as a matrix; a vector is a matrix of one column.
+  MatrixView matrix(int i) const {
+    const Index n = std::max(places_[i].columns, 1);
+    return {data(i), places_[i].size / n, n};
+  }
+  /// The columns of input i if it is a matrix, otherwise 0.
+  Index columns(int i) const { return places_[i].columns; }
   int size() const noexcept { return count_; }
 
  private:

@@ -1,5 +1,5 @@
 // Y = U^-1, of a square matrix, by LU factorisation with partial pivoting.
-// in: the entries of an n x n matrix, row by row. out: those of its inverse.
+// in, out: n x n.
 #pragma once
 
 #include "saltus/model/leaf_system.hpp"
@@ -8,7 +8,10 @@ namespace saltus {
 
 class MatrixInversion final : public LeafSystem {
  public:
-  /// `rows` is n. A run ends with a SimulationError where the matrix is singular to working
+  /// The wire decides n. ShapeMismatchError, when the diagram is built, if it is no square matrix.
+  /// A run ends as below.
+  explicit MatrixInversion(std::string name);
+  /// `rows` is n; the input takes a vector of the n n entries, row by row, too. A run ends with a SimulationError where the matrix is singular to working
   /// precision: its reciprocal condition number, estimated in the 1-norm, is below 2.2e-16, or an
   /// entry is not finite.
   MatrixInversion(std::string name, Index rows);

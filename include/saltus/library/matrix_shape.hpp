@@ -1,7 +1,7 @@
-// The shape of a matrix that travels as a signal: the vector of its entries, row by row.
+// The rows and columns of a matrix, as an argument of a block.
 #pragma once
 
-#include "saltus/base/view.hpp"
+#include "saltus/model/shape.hpp"
 
 namespace saltus {
 
@@ -11,6 +11,7 @@ struct MatrixShape {
   Index rows = 0, columns = 0;
 
   Index size() const { return rows * columns; }
+  Shape shape() const { return Shape::matrix(rows, columns); }
 };
 
 }  // namespace saltus

@@ -1,5 +1,5 @@
 // Y = U^T, of a matrix.
-// in: the entries of an m x n matrix, row by row. out: those of an n x m matrix.
+// in: m x n. out: n x m.
 #pragma once
 
 #include "saltus/library/matrix_shape.hpp"
@@ -9,6 +9,9 @@ namespace saltus {
 
 class MatrixTransposition final : public LeafSystem {
  public:
+  /// The wire decides the shape. ShapeMismatchError, when the diagram is built, if it is no matrix.
+  explicit MatrixTransposition(std::string name);
+  /// The input takes a matrix of this shape, or a vector of its entries row by row.
   MatrixTransposition(std::string name, MatrixShape shape);
 };
 

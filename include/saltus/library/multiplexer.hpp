@@ -1,5 +1,5 @@
 // y = (u_0; u_1; ...): the inputs in order.
-// in_0, in_1, ...: any widths. out: a vector of their total width.
+// in_0, in_1, ...: any shapes, a matrix row by row. out: a vector of all entries.
 #pragma once
 
 #include "saltus/model/leaf_system.hpp"

@@ -33,7 +33,6 @@ class SecondOrderIntegrator final : public LeafSystem {
  private:
   void require_sound(const Options& options) const;
   void require_inside(const Options& options) const;
-  void require_width(const char* what, const std::optional<Value>& value) const;
   void declare_motion(const Options& options);
   RelationIndex declare_velocity_limit(const char* parameter, const char* relation,
                                        const Value& limit, double outward);

@@ -25,6 +25,7 @@ class Symbols {
   virtual tape::Symbol parameter(Index i) = 0;
   virtual tape::Symbol input(int k, Index i) = 0;
   virtual Index width(int k) = 0;
+  virtual Index columns(int k) = 0;
   virtual tape::Symbol relation(RelationIndex r, Index i) = 0;
 };
 
@@ -46,6 +47,8 @@ class EntryAt {
   Number u(int k) const { return entry(at_.u[k]); }
   double u(int k, Index j) const { return at_.u[k][j]; }
   Index width(int k) const { return at_.u[k].size(); }  ///< of input k
+  /// Of input k, if it is a matrix; otherwise 0.
+  Index columns(int k) const { return at_.u.columns(k); }
   /// The entry of a parameter; a scalar has only one. With j: entry j.
   Number p(ParameterIndex k) const { return entry(at_.parameter(k)); }
   double p(ParameterIndex k, Index j) const { return at_.parameter(k)[j]; }
@@ -92,6 +95,7 @@ class EntryAt<tape::Symbol> {
   Symbol u(int k) const { return u(k, width(k) == 1 ? 0 : i_); }
   Symbol u(int k, Index j) const { return symbols_.input(k, j); }
   Index width(int k) const { return symbols_.width(k); }
+  Index columns(int k) const { return symbols_.columns(k); }
   Symbol p(ParameterIndex k) const { return p(k, k.size == 1 ? 0 : i_); }
   Symbol p(ParameterIndex k, Index j) const { return symbols_.parameter(k.offset + j); }
   Symbol relation(RelationIndex r) const { return relation(r, i_); }

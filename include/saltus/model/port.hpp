@@ -13,35 +13,12 @@
 #include "saltus/base/reads.hpp"
 #include "saltus/base/view.hpp"
 #include "saltus/model/formula.hpp"
+#include "saltus/model/shape.hpp"
 
 namespace saltus {
 
 class LeafSystem;
 class System;
-
-/// Size of a signal. A scalar remains a scalar in the results, a vector of one entry remains a
-/// vector.
-struct Shape {
-  Index size = 1;
-  bool vector = false;
-  bool operator==(const Shape&) const = default;
-
-  static constexpr Shape scalar() { return {1, false}; }
-  static constexpr Shape of(Index n) { return {n, true}; }
-};
-
-/// Computes the shape of an output from the shapes of all inputs, if it is not fixed.
-using ShapeRule = std::function<Shape(std::span<const Shape>)>;
-
-/// The shape of an elementwise block, such as Gain, Adder and Abs: a scalar is stretched to the
-/// width of the others.
-inline Shape elementwise(std::span<const Shape> inputs) {
-  Shape result = Shape::scalar();
-  for (const Shape& shape : inputs) {
-    if (shape.vector && (!result.vector || result.size == 1)) result = shape;
-  }
-  return result;
-}
 
 /// Entries first to last - 1 of a signal.
 struct EntryRange {
@@ -61,6 +38,12 @@ inline EntryRange entry_by_entry(Index i, int k, std::span<const Index> widths) 
 struct InputDeclaration {
   std::string name = {};
   std::optional<Shape> shape = {};  ///< empty: the shape of the connected output
+  bool flat = false;  ///< a matrix port that takes a vector of its entries, row by row, too
+
+  bool takes(const Shape& signal) const {
+    return !shape || saltus::takes(*shape, signal) ||
+           (flat && !signal.is_matrix() && signal.size == shape->size);
+  }
 };
 
 struct OutputDeclaration {

@@ -87,12 +87,23 @@ class System {
   OutputPort output(int index = 0) const;
   OutputPort output(std::string_view port) const;
 
-  /// Gives an input a constant value, so that nothing has to be connected to it: a number, or a
-  /// vector. The value is in force in plans that are compiled afterwards. Throws ModelError for an
+  /// Gives an input a constant value, so that nothing has to be connected to it: a number, a
+  /// vector, or a matrix. The value is in force in plans that are compiled afterwards. Throws ModelError for an
   /// unknown input, and for a value that is empty or not finite. An input takes one source:
   /// `connect`, `build` and `compile` refuse an input with both a fixed value and a wire.
   void fix_input(int index, double value);
-  void fix_input(int index, const Eigen::VectorXd& value);
+  template <class Derived>
+  void fix_input(int index, const Eigen::MatrixBase<Derived>& value) {
+    if constexpr (Derived::IsVectorAtCompileTime) {
+      fix_input(index, Eigen::VectorXd(value), Shape::of(value.size()));
+    } else {
+      const MatrixByRows rows = value;
+      fix_input(index, rows.template reshaped<Eigen::RowMajor>(),
+                Shape::matrix(rows.rows(), rows.cols()));
+    }
+  }
+  /// The same of a value in its flat form: the entries of a matrix row by row.
+  void fix_input(int index, Eigen::VectorXd entries, const Shape& shape);
   /// Takes the value away again.
   void free_input(int index);
   /// Whether this system, or a block in it, gives the input a value.

@@ -41,6 +41,7 @@ struct Picture {
   struct Wire {
     int from = 0, output = 0, to = 0, input = 0;
     Index width = 1;
+    Index columns = 0;  ///< of a matrix
     Flow flow = Flow::unknown;
     bool event = false;  ///< read by guards, resets and updates only
   };
@@ -69,6 +70,9 @@ Picture picture(const System& system, const PictureOptions& options = {});
 /// Whether the name of a port says nothing: the only input of a block is called "in", or the only
 /// output "out".
 bool obvious(const std::vector<std::string>& ports, std::string_view usual);
+
+/// The width of a wire in words: "3", or "2 x 3" of a matrix.
+std::string dimensions_of(const Picture::Wire& wire);
 
 /// The picture in the language of Graphviz: `dot -Tsvg`. Inner diagrams are clusters. Wires that
 /// are read at events only are dashed; folded and dropped blocks are grey; a legend says so. A

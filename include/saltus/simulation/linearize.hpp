@@ -22,13 +22,17 @@ struct LinearInput {
   LinearInput(std::string of, double at)
       : name(std::move(of)), value(Eigen::VectorXd::Constant(1, at)) {}
   LinearInput(std::string of, Eigen::VectorXd at)
-      : name(std::move(of)), value(std::move(at)), is_vector(true) {}
+      : name(std::move(of)), value(std::move(at)), shape(Shape::of(value->size())) {}
+  LinearInput(std::string of, const MatrixByRows& at)
+      : name(std::move(of)),
+        value(at.reshaped<Eigen::RowMajor>()),
+        shape(Shape::matrix(at.rows(), at.cols())) {}
 
   std::string name;
   /// The value at which the system is linearised. Empty: that of the context, or the value to which
   /// the open input was fixed.
   std::optional<Eigen::VectorXd> value = {};
-  bool is_vector = false;  ///< a vector of one entry is no scalar
+  Shape shape = {};  ///< of the value: a vector of one entry is no scalar
 };
 
 struct LinearizeOptions {

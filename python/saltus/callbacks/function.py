@@ -52,6 +52,7 @@ def _signature(block: Block, function: Block) -> Any:
         out=function["out"],
         out_shape=_out_shape(block, function),
         result_size=function["result_size"],
+        result_shape=function["result_shape"],
     )
 
 
@@ -62,7 +63,8 @@ def _out_shape(block: Block, function: Block) -> tuple[int, ...] | None:
         return tuple(block["state_shape"])
     if function["role"] == "jacobian":
         return (len(block["x"]), len(block["x"]))
-    return None
+    shape: tuple[int, ...] | None = function["result_shape"]
+    return shape
 
 
 def core_trace(block: Block, function: Block, outcome: Any) -> _core.Trace | None:

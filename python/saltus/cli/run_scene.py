@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from saltus._entries import entries
 from saltus._signals import port_of
 from saltus._status import WELL
 from saltus.cli.files import require_picture, require_suffix
@@ -145,9 +146,9 @@ def _null(value: float) -> float | None:
 
 
 def _values(rows: Any) -> Any:
-    """The last row: a number, or a list of them."""
+    """The last row: a number, or a list of them, of a matrix a list of its rows."""
     last = np.asarray(rows[-1], dtype=float)
-    return _null(float(last)) if last.ndim == 0 else [_null(float(v)) for v in last.ravel()]
+    return _null(float(last)) if last.ndim == 0 else [_values([part]) for part in last]
 
 
 def _show(results: Results, scene: Chosen, chosen: argparse.Namespace) -> None:
@@ -194,12 +195,14 @@ def _write(results: Results, chosen: argparse.Namespace) -> None:
 
 
 def _write_csv(results: Results, path: Path) -> None:
-    """A column for each number: time, jump, 'y' of a scalar, 'y[0]', ... of a vector."""
+    """A column for each number: time, jump, 'y' of a scalar, 'y[0]', ... of a vector, 'y[0,0]', ...
+    of a matrix.
+    """
     titles, columns = ["time", "jump"], [results.time, results.jump]
     for name, array in results.outputs.items():
-        entries = array.reshape(len(array), -1)
-        titles += [name] if array.ndim == 1 else [f"{name}[{i}]" for i in range(entries.shape[1])]
-        columns += list(entries.T)
+        for title, column in entries(name, array):
+            titles.append(title)
+            columns.append(column)
     with open(path, "w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(titles)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saltus import __version__
+from saltus._entries import entries
 from saltus._signals import port_of
 from saltus._span import rows_within
 from saltus._status import WELL
@@ -132,9 +133,6 @@ def _signals(results: Results) -> dict[str, float]:
     """The last value of each recorded signal, entry by entry."""
     found: dict[str, float] = {}
     for name, array in results.outputs.items():
-        last = np.asarray(array[-1]) if len(array) else np.asarray(np.nan)
-        entries = [(name, last)] if not last.ndim else [
-            (f"{name}[{i}]", value) for i, value in enumerate(last.ravel())
-        ]  # fmt: skip
-        found |= {key: float(value) for key, value in entries}
+        last = array[-1] if len(array) else np.nan
+        found |= {key: float(value) for key, value in entries(name, last, before=0)}
     return found

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from saltus._core import known_names
+from saltus._entries import entries
 from saltus._whole import is_whole
 from saltus.errors import ModelError
 from saltus.results.animation.film import Film, Moment
@@ -77,17 +78,15 @@ def pick(values: Values, which: Which) -> Any:
     (10.0, (2,))
     """
     shape = np.shape(values.time)
-    entries: dict[str, np.ndarray] = {}
+    known: dict[str, np.ndarray] = {}
     for name, array in values.items():
-        flat = np.asarray(array).reshape(*shape, -1)
-        vector = np.ndim(array) > len(shape)
-        entries |= {f"{name}[{i}]" if vector else name: flat[..., i] for i in range(flat.shape[-1])}
-    if is_whole(which) and 0 <= which < len(entries):
-        found = list(entries.values())[which]
-    elif which in entries:
-        found = entries[str(which)]
+        known |= dict(entries(name, array, before=len(shape)))
+    if is_whole(which) and 0 <= which < len(known):
+        found = list(known.values())[which]
+    elif which in known:
+        found = known[str(which)]
     else:
-        raise ModelError(_unknown(which, entries))
+        raise ModelError(_unknown(which, known))
     return found if shape else float(found)
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from saltus._entries import dimension_names
 from saltus._status import WELL
 from saltus.ensemble.columns import STATUS, Columns
 from saltus.ensemble.table import Table
@@ -114,9 +115,7 @@ def _add_values(add: Any, columns: Columns, save_at: list[float]) -> None:
     """Recorded signals, and the states at the end."""
     for name, array in columns["signals"].items():
         more = ["time"] if save_at else []
-        if array.ndim > 1 + len(more):
-            more.append(f"{name}_entry")
-        add(name, array, *more)
+        add(name, array, *more, *dimension_names(name, array.ndim - 1 - len(more)))
     for name in ("continuous_state", "discrete_state"):
         if columns[name].shape[1]:
             add(name, columns[name], f"{name}_entry")
@@ -162,8 +161,9 @@ def _coordinates(columns: Columns, table: Table, save_at: list[float]) -> Arrays
         array = np.asarray(values)
         if array.ndim == len(dims):
             found[name] = (dims, array)
-        else:  # vectors
-            found[f"{name}_values"] = ((*dims, f"{name}_entry"), array)
+        else:  # vectors or matrices
+            axes = dimension_names(name, array.ndim - len(dims))
+            found[f"{name}_values"] = ((*dims, *axes), array)
     if not table.is_grid:
         found["run"] = (("run",), np.arange(table.runs))
     if save_at:
@@ -184,9 +184,14 @@ def to_dataset(
     coordinates = {
         name: value
         for name, value in _coordinates(columns, table, save_at).items()
-        if set(value[0]) <= used | {f"{name.removesuffix('_values')}_entry"}
+        if set(value[0]) <= used | _axes_of_values(name.removesuffix("_values"))
     }
     return xarray().Dataset(variables, coordinates, attributes)
+
+
+def _axes_of_values(name: str) -> set[str]:
+    """The axes of the values of a swept vector or matrix."""
+    return {*dimension_names(name, 1), *dimension_names(name, 2)}
 
 
 def to_dict(

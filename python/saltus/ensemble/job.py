@@ -204,11 +204,11 @@ def _name(function: Any) -> str:
 
 
 def _numbers(name: str, column: Column) -> np.ndarray:
-    """Values of all runs; vectors make a row for each run."""
+    """Values of all runs; vectors, and matrices row by row, make a row for each run."""
     try:
         numbers = np.array(column, dtype=float)
     except (TypeError, ValueError):
         raise ModelError(f"sweep: '{name}': expected numbers, found {column[0]!r}, ...") from None
-    if numbers.ndim > 2:
-        raise ModelError(f"sweep: '{name}': expected a number or a vector for each run")
-    return numbers
+    if numbers.ndim > 3:
+        raise ModelError(f"sweep: '{name}': expected a number, a vector or a matrix for each run")
+    return numbers.reshape(len(numbers), -1) if numbers.ndim == 3 else numbers

@@ -31,7 +31,7 @@ class Bound:
     columns: Columns
     context: _core.Context
     span: tuple[float, float]
-    signals: dict[str, tuple[str, int | None]]
+    signals: dict[str, tuple[str, tuple[int, ...] | None]]
     """name in the data -> name under which the run records it, entry"""
     recorded: dict[str, OutputPort]
 
@@ -94,11 +94,11 @@ def _span(where: str, columns: Columns, t_span: object, begin: float) -> tuple[f
 
 def _signal(
     where: str, system: System, name: str, signals: Mapping[str, OutputPort | str]
-) -> tuple[str, int | None, OutputPort]:
+) -> tuple[str, tuple[int, ...] | None, OutputPort]:
     """The recorded name of a signal in the data, its entry and its port."""
     base, entry = name, None
-    if name not in signals and (match := re.fullmatch(r"(.+)\[(\d+)\]", name)):
-        base, entry = match[1], int(match[2])
+    if name not in signals and (match := re.fullmatch(r"(.+)\[(\d+(?:,\d+)?)\]", name)):
+        base, entry = match[1], tuple(map(int, match[2].split(",")))
     if base in signals:
         return base, entry, port_of(system, signals[base], f"{where}: signal '{base}'")
     try:

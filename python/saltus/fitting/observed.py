@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
@@ -76,20 +77,25 @@ class Series:
 
 
 def series(
-    where: str, name: str, recorded: str, entry: int | None, width: int, *columns: np.ndarray
+    where: str,
+    name: str,
+    recorded: str,
+    entry: tuple[int, ...] | None,
+    shape: tuple[int, ...],
+    *columns: np.ndarray,
 ) -> Series:
-    """The data of a signal of `width` numbers. `columns` are the times, the rows of the run, the
+    """The data of a signal, or of an entry of it. `columns` are the times, the rows of the run, the
     values and their standard deviations. ModelError if the shape is not that of the signal.
     """
     time, rows, values, sigma = columns
-    if entry is not None and not 0 <= entry < width:
-        raise ModelError(f"{where}: '{name}': the signal has {width} entries, the first is [0]")
+    width = math.prod(shape)
+    first = 0 if entry is None else _place(f"{where}: '{name}'", entry, shape)
     wanted = 1 if entry is not None else width
-    found = 1 if values.ndim == 1 else values.shape[1]
+    found = math.prod(values.shape[1:])
     if found != wanted:
         raise ModelError(
             f"{where}: '{name}': expected {wanted} numbers for each time, found {found}; an entry "
-            "of a vector is called 'name[0]'"
+            "of a vector is called 'name[0]', of a matrix 'name[0,0]'"
         )
     values, sigma = values.reshape(-1, wanted), sigma.reshape(-1, wanted)
     at, which = np.nonzero(np.isfinite(values))
@@ -100,8 +106,19 @@ def series(
         values[at, which],
         sigma[at, which],
         rows[at],
-        which + (entry or 0),
+        which + first,
     )
+
+
+def _place(what: str, entry: tuple[int, ...], shape: tuple[int, ...]) -> int:
+    """The place of an entry among all of a signal."""
+    shape = shape or (1,)
+    if len(entry) != len(shape) or any(i >= n for i, n in zip(entry, shape, strict=True)):
+        first = ",".join("0" for _ in shape)
+        raise ModelError(
+            f"{what}: the signal has {math.prod(shape)} entries, the first is [{first}]"
+        )
+    return int(np.ravel_multi_index(entry, shape))
 
 
 @dataclass(frozen=True)

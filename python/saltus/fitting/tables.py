@@ -79,10 +79,10 @@ def _of_dataset(where: str, data: Any) -> dict[Any, Any]:
 
 def _column(where: str, name: str, values: Any, time: np.ndarray) -> np.ndarray:
     column = _numbers(f"{where}: '{name}'", values)
-    if column.ndim not in (1, 2) or len(column) != len(time):
+    if column.ndim not in (1, 2, 3) or len(column) != len(time):
         raise ModelError(
-            f"{where}: '{name}': expected a value or a vector for each of {len(time)} times, found "
-            f"the shape {column.shape}"
+            f"{where}: '{name}': expected a value, a vector or a matrix for each of {len(time)} "
+            f"times, found the shape {column.shape}"
         )
     if np.isinf(column).any():
         raise ModelError(f"{where}: '{name}' is infinite at t = {_first(column, time):g} s; "
@@ -91,7 +91,7 @@ def _column(where: str, name: str, values: Any, time: np.ndarray) -> np.ndarray:
 
 
 def _first(column: np.ndarray, time: np.ndarray) -> float:
-    rows = np.isinf(column) if column.ndim == 1 else np.isinf(column).any(axis=1)
+    rows = np.isinf(column).reshape(len(column), -1).any(axis=1)
     return float(time[np.flatnonzero(rows)[0]])
 
 

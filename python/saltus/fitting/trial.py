@@ -110,12 +110,11 @@ class Trial:
         found: list[Series | EventSeries] = []
         for name, values in columns.signals.items():
             recorded, entry = self.bound.signals[name]
-            shape = empty.outputs[recorded].shape
-            width = shape[1] if len(shape) == 2 else 1
+            shape = empty.outputs[recorded].shape[1:]
             self._note_sigma(name, sigma)
             deviations = sigma_of(where, sigma, name, values)
             parts = (columns.time, rows, values, deviations)
-            found.append(series(where, name, recorded, entry, width, *parts))
+            found.append(series(where, name, recorded, entry, shape, *parts))
         for name, given in columns.events.items():
             try:
                 empty.events.times(name, given.kind)

@@ -53,8 +53,22 @@ class DeclaresPorts(_core.LeafSystem):
     ) -> int:
         """Declares an input, by default called in_0, in_1, ...; returns its position.
 
-        If `shape` is given, another shape is refused. An input of one number comes as a float, with
-        shape 1 as an array.
+        `shape` is () for a number, n for a vector, (m, n) for a matrix. If it is given, another
+        shape is refused, otherwise the input takes that of its wire. An input of one number comes
+        as a float, with shape 1 as an array, and a matrix as an array of two dimensions.
+
+        Raises ModelError for a shape of more than two dimensions, or with a 0 in one of two.
+
+        Examples
+        --------
+        >>> block = saltus.LeafSystem(name="gram")
+        >>> block.declare_input_port("A", shape=(2, 3))
+        0
+        >>> block.declare_output_port(lambda time, state, A: A @ A.T)
+        0
+        >>> saltus.response(block, [[1.0, 0.0, 2.0], [0.0, 3.0, 0.0]])
+        array([[5., 0.],
+               [0., 9.]])
         """
         return super().declare_input_port(name or "", shape_of(shape))
 
@@ -75,7 +89,8 @@ class DeclaresPorts(_core.LeafSystem):
         """Declares an output, y = callback(time, state, *inputs, **parameters), by default called
         out_0, out_1, ...; returns its position.
 
-        `shape` (or the shape of `default_value`) is () for a number, n for a vector. If it is not
+        `shape` (or the shape of `default_value`) is () for a number, n for a vector, (m, n) for a
+        matrix, which the callback returns as an array, or as the numbers row by row. If it is not
         given, or `boolean` is not, the callback is called once before the run, with inputs at zero,
         to find it. A boolean output that reaches a derivative or a reset is located by bisection
         and held in between. `reads` names the values it depends on, of 'time', 'continuous_state',

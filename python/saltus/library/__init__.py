@@ -1,6 +1,6 @@
 """Ready blocks. `from saltus.library import *` brings them all.
 
-A value of a block is a number or a vector; a number means a vector of equal entries. Every block
+A value of a block is a number, a vector or a matrix; a number means equal entries. Every block
 takes `name=`; without it the name is made of its class and its `system_id`, such as 'Gain_7'.
 Values called parameters live in the context, `context.with_parameter("gain.gain", 3.0)`; times,
 counts and operators are fixed. A switch that reaches a derivative or a reset is located as an

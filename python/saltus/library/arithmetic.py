@@ -178,8 +178,8 @@ class Saturate(Block, _core.Saturate):
     Parameters
     ----------
     lower_limit, upper_limit
-        A number or a vector each; one of them may be left out. The given limits are parameters of
-        the context. The times at which u passes a limit are located as events.
+        Numbers, vectors or matrices; one of them may be left out. The given limits are parameters
+        of the context. The times at which u passes a limit are located as events.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 

@@ -31,7 +31,7 @@ class DelayN(Block, _core.DelayN):
     n
         The number of ticks by which y is behind u, 1 or more.
     initial_state
-        A number or a vector: y before the first value, and the shape of the signal.
+        A number, a vector or a matrix: y before the first value, and the shape of the signal.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
@@ -132,7 +132,7 @@ class RateLimiter(Block, _core.RateLimiter):
     upper_limit, lower_limit
         [1/s] times the unit of u, lower_limit <= upper_limit. Parameters of the context.
     initial_state
-        y before the first tick, a number or a vector: the shape of the signal.
+        y before the first tick, a number, a vector or a matrix: the shape of the signal.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
@@ -173,7 +173,7 @@ class RateTransition(Block, _core.RateTransition):
     dt
         [s] The time from one tick to the next; ticks are at offset + k dt, counted by integers.
     initial_state
-        A number or a vector: y before the first tick, and the shape of the signal.
+        A number, a vector or a matrix: y before the first tick, and the shape of the signal.
     offset
         [s] The time of the first tick.
     name
@@ -216,8 +216,8 @@ class TransportDelay(Block, _core.TransportDelay):
     delay
         [s] By how much y is behind u, above 0.
     initial_output
-        A number or a vector: y before the first value, and the shape of the signal. It is a
-        parameter of the context.
+        A number, a vector or a matrix: y before the first value, and the shape of the signal. It is
+        a parameter of the context.
     capacity
         The number of pieces of the input that are kept, 4 or more; about one for each step within
         the delay. It fixes the size of the state: 3 + 9 numbers a piece, for a number.
@@ -263,7 +263,7 @@ class UnitDelay(Block, _core.UnitDelay):
     dt
         [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     initial_state
-        A number or a vector: y before the first value, and the shape of the signal.
+        A number, a vector or a matrix: y before the first value, and the shape of the signal.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
@@ -291,7 +291,7 @@ class ZeroOrderHold(Block, _core.ZeroOrderHold):
     dt
         [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     initial_state
-        A number or a vector: y before the first value, and the shape of the signal.
+        A number, a vector or a matrix: y before the first value, and the shape of the signal.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 

@@ -34,7 +34,7 @@ class DerivativeDiscrete(Block, _core.DerivativeDiscrete):
     filter_coefficient
         [1/s] N > 0; by default the plain difference. Parameter of the context, if given.
     initial_state
-        A number or a vector: y before the first tick, and the shape of the signal.
+        A number, a vector or a matrix: y before the first tick, and the shape of the signal.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
@@ -73,7 +73,7 @@ class FilterDiscrete(Block, _core.FilterDiscrete):
     b_coefficients
         b_0, ..., b_m. Parameter of the context.
     initial_state
-        A number or a vector: u before the first tick, and the shape of the signal.
+        A number, a vector or a matrix: u before the first tick, and the shape of the signal.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
@@ -114,7 +114,8 @@ class IntegratorDiscrete(Block, _core.IntegratorDiscrete):
     dt
         [s] The time from one tick to the next; ticks are at 0, dt, 2 dt, ..., counted by integers.
     initial_state
-        A number or a vector: y[0], and the value after a reset; that is a parameter of the context.
+        A number, a vector or a matrix: y[0], and the value after a reset; that is a parameter of
+        the context.
     method
         'forward', 'backward' or 'trapezoidal'. With 'forward' the input does not reach the output
         at once, so the block may close a loop.
@@ -126,7 +127,7 @@ class IntegratorDiscrete(Block, _core.IntegratorDiscrete):
     enable_limits
         y remains between the limits, and does not wind up beyond them.
     lower_limit, upper_limit
-        A number or a vector each, one of them may be left out. They count only with
+        Numbers, vectors or matrices, one of them may be left out. They count only with
         `enable_limits`, and are parameters of the context then.
     enable_hold
         Gives the input `hold_trigger`. While it is true, y does not change.

@@ -52,7 +52,7 @@ class ReduceBlock(LeafSystem):
         change anything. It is called once before the run, with inputs at zero, to find the kind of
         its result.
     shape
-        The shape of y, where the call before the run would not show it.
+        The shape of y, such as (2, 3) of a matrix, where the call before the run would not show it.
     boolean
         Whether y is true or false. A boolean that reaches a derivative or a reset is located: by a
         smooth guard where Saltus can see into the function, else by bisection.
@@ -104,7 +104,7 @@ class FunctionBlock(LeafSystem):
         Takes a float, or a read-only array if the input is a vector; returns a number, a boolean or
         an array. Otherwise as that of `ReduceBlock`.
     shape
-        The shape of y, where the call before the run would not show it.
+        The shape of y, such as (2, 3) of a matrix, where the call before the run would not show it.
     boolean
         Whether y is true or false. A boolean that reaches a derivative or a reset is located: by a
         smooth guard where Saltus can see into the function, else by bisection.
@@ -158,7 +158,7 @@ class SourceBlock(LeafSystem):
         Takes the time [s], a float; returns a number or an array. Otherwise as that of
         `ReduceBlock`.
     shape
-        The shape of y, where the call before the run would not show it.
+        The shape of y, such as (2, 3) of a matrix, where the call before the run would not show it.
     boolean
         Whether y is true or false, as for `ReduceBlock`.
     formula

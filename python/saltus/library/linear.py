@@ -19,11 +19,11 @@ class Derivative(Block, _core.Derivative):
     Parameters
     ----------
     filter_coefficient
-        [1/s] N > 0, a number or a vector: several times the fastest frequency of u. It is the
-        parameter `filter_coefficient` of the context.
+        [1/s] N > 0, a number, a vector or a matrix: several times the fastest frequency of u. It is
+        the parameter `filter_coefficient` of the context.
     initial_state
-        x at the start, a number or a vector: the shape of the signal. With u at the start y begins
-        at 0.
+        x at the start, a number, a vector or a matrix: the shape of the signal. With u at the start
+        y begins at 0.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 

@@ -1,4 +1,4 @@
-"""Blocks whose signals are matrices: vectors of the entries, row by row, as `A.ravel()` gives."""
+"""Blocks whose signals are matrices."""
 
 from __future__ import annotations
 
@@ -31,40 +31,52 @@ def _shape(block: str, what: str, given: object) -> tuple[int, int]:
 class MatrixMultiplication(Block, _core.MatrixMultiplication):
     """Y = U_0 U_1, of two matrices.
 
-    A matrix travels as the vector of its entries, row by row: `A.ravel()`. Inputs: in_0, m k entries,
-    and in_1, k n entries. Output: out, m n entries.
+    Inputs: in_0, of shape (m, k), and in_1, of shape (k, n). Output: out, of shape (m, n). As in
+    NumPy's `A @ B` a vector of k entries may stand in the place of either: on the left it is a row,
+    on the right a column, and out is a vector, of two vectors a number.
 
     Parameters
     ----------
-    left_shape
-        (m, k), the rows and columns of U_0.
-    right_shape
-        (k, n), those of U_1.
+    left_shape, right_shape
+        (m, k) and (k, n), both or neither. By default the wires decide. An input of given shape
+        takes a vector of its m k, or k n, entries row by row too, as `A.ravel()` gives.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        If the columns of U_0 are not as many as the rows of U_1, or a shape is no pair of whole
-        numbers above 0; when the diagram is built, if an input has another width.
+        If the columns of U_0 are not as many as the rows of U_1, which is found here or when the
+        diagram is built; for a scalar wire; if a shape is no pair of whole numbers above 0, or only
+        one is given.
 
     Examples
     --------
     >>> from saltus.library import MatrixMultiplication
-    >>> product = MatrixMultiplication((2, 2), (2, 1))
-    >>> saltus.response(product, [1.0, 2.0, 3.0, 4.0], [5.0, 6.0])
+    >>> saltus.response(MatrixMultiplication(), [[1.0, 2.0], [3.0, 4.0]], [5.0, 6.0])
     array([17., 39.])
+    >>> saltus.response(MatrixMultiplication((2, 2), (2, 1)), [1.0, 2.0, 3.0, 4.0], [5.0, 6.0])
+    array([[17.],
+           [39.]])
     """
 
     def __init__(
         self,
-        left_shape: Sequence[int],
-        right_shape: Sequence[int],
+        left_shape: Sequence[int] | None = None,
+        right_shape: Sequence[int] | None = None,
         *,
         name: str | None = None,
     ):
         own = self._named(name)
+        if left_shape is None and right_shape is None:
+            super().__init__(own)
+            return
+        if left_shape is None or right_shape is None:
+            given = "left_shape" if right_shape is None else "right_shape"
+            raise ModelError(
+                f"block '{own}': expected left_shape and right_shape, or neither; found "
+                f"{given} only"
+            )
         super().__init__(
             own, _shape(own, "left_shape", left_shape), _shape(own, "right_shape", right_shape)
         )
@@ -73,63 +85,73 @@ class MatrixMultiplication(Block, _core.MatrixMultiplication):
 class MatrixTransposition(Block, _core.MatrixTransposition):
     """Y = U^T, of a matrix.
 
-    A matrix travels as the vector of its entries, row by row: `A.ravel()`. Input: in, m n entries.
-    Output: out, those of the n x m matrix.
+    Input: in, of shape (m, n). Output: out, of shape (n, m).
 
     Parameters
     ----------
     shape
-        (m, n), the rows and columns of U.
+        (m, n). By default the wire decides. An input of given shape takes a vector of its entries
+        row by row too, as `A.ravel()` gives.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        If the shape is no pair of whole numbers above 0; when the diagram is built, if the input has
-        another width.
+        If the shape is no pair of whole numbers above 0; when the diagram is built, if the input is
+        no matrix, or one of another shape.
 
     Examples
     --------
     >>> from saltus.library import MatrixTransposition
-    >>> saltus.response(MatrixTransposition((2, 3)), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
-    array([1., 4., 2., 5., 3., 6.])
+    >>> saltus.response(MatrixTransposition(), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]])
+    array([[1., 4.],
+           [2., 5.],
+           [3., 6.]])
     """
 
-    def __init__(self, shape: Sequence[int], *, name: str | None = None):
+    def __init__(self, shape: Sequence[int] | None = None, *, name: str | None = None):
         own = self._named(name)
-        super().__init__(own, _shape(own, "shape", shape))
+        if shape is None:
+            super().__init__(own)
+        else:
+            super().__init__(own, _shape(own, "shape", shape))
 
 
 class MatrixInversion(Block, _core.MatrixInversion):
     """Y = U^-1, of a square matrix, by LU factorisation with partial pivoting.
 
-    A matrix travels as the vector of its entries, row by row: `A.ravel()`. Input: in, n n entries.
-    Output: out, n n entries. Golub and Van Loan, Matrix Computations, 4th edition, section 3.4.
+    Input: in, of shape (n, n). Output: out, of the same shape. Golub and Van Loan, Matrix
+    Computations, 4th edition, section 3.4.
 
     Parameters
     ----------
     rows
-        n.
+        n. By default the wire decides. If it is given, the input takes a vector of the n n entries
+        row by row too, as `A.ravel()` gives.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
     Raises
     ------
     ModelError
-        If `rows` is no whole number above 0; when the diagram is built, if the input has another
-        width.
+        If `rows` is no whole number above 0; when the diagram is built, if the input is no square
+        matrix, or one of another shape.
     SimulationError
-        In a run, where the matrix is singular to working precision: its reciprocal condition number,
-        estimated in the 1-norm, is below 2.2e-16, or an entry is not finite.
+        In a run, where the matrix is singular to working precision: its reciprocal condition
+        number, estimated in the 1-norm, is below 2.2e-16, or an entry is not finite.
 
     Examples
     --------
     >>> from saltus.library import MatrixInversion
-    >>> saltus.response(MatrixInversion(2), [2.0, 0.0, 0.0, 4.0])
-    array([0.5 , 0.  , 0.  , 0.25])
+    >>> saltus.response(MatrixInversion(), [[2.0, 0.0], [0.0, 4.0]])
+    array([[0.5 , 0.  ],
+           [0.  , 0.25]])
     """
 
-    def __init__(self, rows: int, *, name: str | None = None):
+    def __init__(self, rows: int | None = None, *, name: str | None = None):
         own = self._named(name)
-        super().__init__(own, _count(own, "rows", rows))
+        if rows is None:
+            super().__init__(own)
+        else:
+            super().__init__(own, _count(own, "rows", rows))

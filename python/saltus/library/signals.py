@@ -22,7 +22,7 @@ class Chirp(Block, _core.Chirp):
     Parameters
     ----------
     f0, f1
-        [rad/s] A number or a vector each. Parameters of the context.
+        [rad/s] Numbers, vectors or matrices. Parameters of the context.
     stop_time
         [s] > 0, an exact event.
     phi

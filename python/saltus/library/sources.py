@@ -16,7 +16,8 @@ class Constant(Block, _core.Constant):
     Parameters
     ----------
     value
-        A number or a vector. It is the parameter `value` of the context.
+        A number, a vector or a matrix. It is the parameter `value` of the context, of a matrix its
+        entries row by row.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 
@@ -37,7 +38,7 @@ class Step(Block, _core.Step):
     Parameters
     ----------
     start_value, end_value
-        A number or a vector each. Parameters of the context.
+        Numbers, vectors or matrices. Parameters of the context.
     step_time
         [s] One exact event.
     name
@@ -119,7 +120,7 @@ class Ramp(Block, _core.Ramp):
     Parameters
     ----------
     start_value, slope
-        A number or a vector each, slope in units of y per second. Parameters of the context.
+        Numbers, vectors or matrices, slope in units of y per second. Parameters of the context.
     start_time
         [s] The kink there is an exact event.
     name

@@ -19,9 +19,9 @@ class Integrator(Block, _core.Integrator):
     Parameters
     ----------
     initial_state
-        A number or a vector: the state at the start, and after a reset. The start of one run is the
-        continuous state of its context; the parameter `initial_state` of the context is the state
-        after a reset.
+        A number, a vector or a matrix: the state at the start, and after a reset. The start of one
+        run is the continuous state of its context; the parameter `initial_state` of the context is
+        the state after a reset.
     enable_reset
         Gives the input `reset_trigger`, a boolean on whose rising edge x becomes `initial_state`.
     enable_external_reset
@@ -31,7 +31,7 @@ class Integrator(Block, _core.Integrator):
     enable_limits
         An entry does not move while it is at a limit and its derivative points outward.
     lower_limit, upper_limit
-        A number or a vector each, one of them may be left out. They count only with
+        Numbers, vectors or matrices, one of them may be left out. They count only with
         `enable_limits`, and are parameters of the context then.
     enable_hold
         Gives the input `hold_trigger`, a boolean. While it is true, x does not change.
@@ -94,7 +94,7 @@ class SecondOrderIntegrator(Block, _core.SecondOrderIntegrator):
     Parameters
     ----------
     initial_position
-        A number or a vector: the shape of the signal.
+        A number, a vector or a matrix: the shape of the signal.
     initial_velocity
         A number or a vector.
     lower_limit, upper_limit

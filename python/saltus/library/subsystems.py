@@ -51,7 +51,7 @@ class SubsystemOutput(Block, _core.SubsystemOutput):
     Parameters
     ----------
     initial_output
-        A number or a vector: the shape of the signal.
+        A number, a vector or a matrix: the shape of the signal.
     kind
         "enabled" or "triggered".
     outputs

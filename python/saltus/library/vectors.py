@@ -61,7 +61,8 @@ class Multiplexer(Block, _core.Multiplexer):
     Parameters
     ----------
     n_inputs
-        How many inputs there are, 1 or more; each may be a number or a vector.
+        How many inputs there are, 1 or more; each may be a number, a vector or a
+        matrix, whose entries come row by row.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 

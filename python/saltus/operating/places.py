@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from saltus import _core
+from saltus._entries import entry_names
 from saltus.errors import ModelError
 from saltus.fitting.coordinates import require_entry
 from saltus.system import System
@@ -65,7 +66,7 @@ def state_names(context: _core.Context) -> tuple[str, ...]:
         size = _core.find_entry(context, name)
         if size == 0 or name.rpartition(".")[2] == "mode":
             continue
-        entries = [name] if size == 1 else [f"{name}[{i}]" for i in range(size)]
+        entries = entry_names(name, () if size == 1 else (size,))
         kind, first = _state_at(context, entries[0])
         if kind == "continuous_state":
             assert first is not None

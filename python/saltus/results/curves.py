@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from saltus._entries import entries
+
 if TYPE_CHECKING:
     from saltus.results.outcome import Results
 
@@ -83,9 +85,7 @@ def curves_of(results: Results) -> dict[str, list[Curve]]:
 
 
 def _curves(name: str, time: np.ndarray, jump: np.ndarray, array: np.ndarray) -> list[Curve]:
-    if array.ndim == 1:
-        return [_curve(name, time, jump, array)]
-    return [_curve(f"{name}[{i}]", time, jump, array[:, i]) for i in range(array.shape[1])]
+    return [_curve(label, time, jump, column) for label, column in entries(name, array)]
 
 
 def holds_of(results: Results) -> list[tuple[float, float]]:

@@ -65,7 +65,7 @@ def checked_arrays(names: list[str], arrays: dict[str, np.ndarray]) -> dict[str,
     column("jump", arrays["jump"], "i")
     outputs = {name: arrays[f"output {i}"] for i, name in enumerate(names)}
     for name, array in outputs.items():
-        column(name, array, "f", (1, 2))
+        column(name, array, "f", (1, 2, 3))
     rows = len(arrays["time"])
     for name, array in [("jump", arrays["jump"]), *outputs.items()]:
         if len(array) != rows:

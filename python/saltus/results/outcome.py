@@ -195,7 +195,9 @@ class Results(Pictures):
 
     @cached_property
     def outputs(self) -> dict[str, np.ndarray]:
-        """Recorded signals by name: one value a row for a scalar, a row of values for a vector."""
+        """Recorded signals by name, (rows,) of a scalar, (rows, n) of a vector, (rows, m, n) of a
+        matrix.
+        """
         return _Outputs(self._core.outputs)
 
     def __getitem__(self, name: str) -> np.ndarray:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from saltus._core import known_names
+from saltus._entries import dimension_names
 from saltus.errors import ModelError
 from saltus.results.record import same
 from saltus.results.tables import extra
@@ -45,9 +46,9 @@ class Sensitivities(Mapping[str, np.ndarray]):
     """The derivatives of the recorded signals, by the names of the signals, and of the final state.
 
     Those of a scalar signal have the axes (row, parameter), those of a vector (row, entry,
-    parameter), with the rows of the results. They are derivatives at a fixed time: at an event the
-    row before it and the row after it differ by the jump that the moving event makes. After a gap
-    they are nan.
+    parameter), of a matrix (row, row of the matrix, column, parameter), with the rows of the
+    results. They are derivatives at a fixed time: at an event the row before it and the row after
+    it differ by the jump that the moving event makes. After a gap they are nan.
 
     Examples
     --------
@@ -107,8 +108,8 @@ class Sensitivities(Mapping[str, np.ndarray]):
         library: Any = extra("xarray", "to_xarray")
         variables: dict[str, Any] = {}
         for name, values in self._outputs.items():
-            entries = [f"{name}_entry"] if values.ndim == 3 else []
-            variables[name] = (("time", *entries, "parameter"), values)
+            axes = dimension_names(name, values.ndim - 2)
+            variables[name] = (("time", *axes, "parameter"), values)
         dataset: xarray.Dataset = library.Dataset(
             variables,
             coords={

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from saltus._entries import dimension_names, entries
 from saltus.errors import ModelError
 
 if TYPE_CHECKING:
@@ -36,14 +37,12 @@ def extra(library: str, what: str, instead: str = "") -> Any:
 
 
 def columns_of(results: Results, taken: Iterable[str] = ()) -> dict[str, np.ndarray]:
-    """The recorded signals, each entry of a vector by itself. ModelError if two columns would have
-    one name, or a name that is `taken`.
+    """The recorded signals, each entry of a vector or a matrix by itself. ModelError if two columns
+    would have one name, or a name that is `taken`.
     """
     columns: dict[str, np.ndarray] = {}
     for name, array in results.outputs.items():
-        parts = [array] if array.ndim == 1 else list(array.T)
-        names = [name] if array.ndim == 1 else [f"{name}[{i}]" for i in range(len(parts))]
-        for column, part in zip(names, parts, strict=True):
+        for column, part in entries(name, array):
             if column in columns or column in taken:
                 raise ModelError(
                     f"two columns would be called '{column}'; record the signal by another name"
@@ -71,7 +70,7 @@ def to_pandas(results: Results) -> pandas.DataFrame:
 def to_xarray(results: Results) -> xarray.Dataset:
     library = extra("xarray", "to_xarray")
     signals = {
-        name: (("time",) if array.ndim == 1 else ("time", f"{name}_entry"), array)
+        name: (("time", *dimension_names(name, array.ndim - 1)), array)
         for name, array in results.outputs.items()
     }
     coordinates = {"time": ("time", results.time, {"units": "s"}), "jump": ("time", results.jump)}

@@ -93,7 +93,7 @@ def call_of(signature: Signature) -> tuple[Any, ...]:
     parameters = tuple((name, np.shape(value)) for name, value in s.parameters.items())
     inputs = None if s.inputs is None else tuple(s.inputs)
     shapes = tuple(map(tuple, s.input_shapes))
-    sizes = (s.state_shape, s.discrete_shape, shapes, s.out_shape, s.result_size)
+    sizes = (s.state_shape, s.discrete_shape, shapes, s.out_shape, s.result_size, s.result_shape)
     return (code, s.convention, s.kind, s.out, inputs, s.mode, tuple(s.modes), parameters, sizes)
 
 

@@ -39,7 +39,7 @@ class Signature:
     parameters: Mapping[str, ArrayLike] = field(default_factory=dict)
     """the parameters by name, in the order of the engine"""
     input_shapes: Sequence[Shape] = ()
-    """the shape of every input of the block: () comes as a float, (n,) as an array"""
+    """the shape of every input of the block: () comes as a float, (n,) and (m, n) as an array"""
     inputs: Sequence[int] | None = None
     """positions of the inputs that the function gets; by default all"""
     kind: str = "vector"
@@ -50,6 +50,8 @@ class Signature:
     """the shape of that array; by default (result_size,)"""
     result_size: int | None = None
     """the number of returned numbers, if it is known"""
+    result_shape: Shape | None = None
+    """the rows and columns of the result, if it is known to be a matrix"""
     modes: Sequence[int] = (0, 1, 2, 3)
     """modes the check tries where the function reads the mode"""
 

@@ -98,6 +98,7 @@ def _traced(signature: Signature, sandbox: Sandbox, few: bool) -> tuple[Traced, 
     sandbox.refuse_writes()
     if signature.result_size is not None and signature.kind in ("vector", "matrix"):
         _require_size(result, signature.result_size)
+    _require_shape(result, signature.result_shape)
     _to_nodes(graph, result)
     tape = graph.tape(result.numbers)
     check = Check(tape, result, functools.partial(Bounds, graph, symbols.variables))
@@ -121,6 +122,12 @@ def _name(function: Callable[..., Any]) -> str:
 def _require_size(result: Result, size: int) -> None:
     if len(result.numbers) != size:
         raise Refusal(f"returns {len(result.numbers)} numbers, expected {size}")
+
+
+def _require_shape(result: Result, shape: tuple[int, ...] | None) -> None:
+    """A matrix of other rows and columns has its entries in another order."""
+    if shape is not None and len(result.shape) > 1 and tuple(result.shape) != tuple(shape):
+        raise Refusal(f"returns an array of shape {result.shape}, expected {tuple(shape)}")
 
 
 def _to_nodes(graph: Any, result: Result) -> None:

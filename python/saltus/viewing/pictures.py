@@ -5,8 +5,10 @@ from __future__ import annotations
 import base64
 import html
 import io
+import math
 from typing import Any
 
+from saltus._entries import entry_names
 from saltus.results.tables import extra
 
 __all__ = ["picture_of", "plots_of"]
@@ -43,15 +45,15 @@ def plots_of(results: Any) -> list[str]:
 
 
 def _names(results: Any) -> list[str]:
-    narrow = [n for n, a in results.outputs.items() if a.ndim == 1 or a.shape[1] <= MANY]
+    narrow = [n for n, a in results.outputs.items() if math.prod(a.shape[1:]) <= MANY]
     return narrow[:MOST]
 
 
 def _numbers(results: Any) -> list[str]:
     return [
-        f"{name}[{i}]"
+        label
         for name, array in results.outputs.items()
-        for i in range(1 if array.ndim == 1 else array.shape[1])
+        for label in entry_names(name, array.shape[1:])
     ]
 
 

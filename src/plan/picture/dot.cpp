@@ -152,7 +152,7 @@ std::string wire_line(const Picture& picture, const Wire& wire) {
                          end_of(to, wire.to, 'i', wire.input), " [color=\"", style.line,
                          "\" fontcolor=\"", style.line, "\"");
   if (wire.event) out += " style=dashed weight=0";
-  if (wire.width > 1) out += text(" penwidth=2 label=\"", wire.width, "\"");
+  if (wire.width > 1) out += text(" penwidth=2 label=\"", dimensions_of(wire), "\"");
   const std::string target = nth(to.inputs, wire.input);
   const std::string says = wire.flow == Flow::unknown ? "" : text(": ", style.says);
   return out +

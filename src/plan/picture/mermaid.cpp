@@ -92,7 +92,7 @@ std::string block_line(const Block& block, std::size_t i) {
               ":::", class_of(block.flow), "\n");
 }
 
-/// The port names that are not obvious, and the width of a vector.
+/// The port names that are not obvious, and the width of a vector or the dimensions of a matrix.
 std::string words_of(const Picture& picture, const Wire& wire) {
   const Block& from = nth(picture.blocks, wire.from);
   const Block& to = nth(picture.blocks, wire.to);
@@ -100,7 +100,8 @@ std::string words_of(const Picture& picture, const Wire& wire) {
   if (!obvious(from.outputs, "out")) out = escaped(nth(from.outputs, wire.output));
   if (!obvious(to.inputs, "in"))
     out += text(out.empty() ? "" : " → ", escaped(nth(to.inputs, wire.input)));
-  if (wire.width > 1) out += text(out.empty() ? "" : " ", escaped(text("[", wire.width, "]")));
+  if (wire.width > 1)
+    out += text(out.empty() ? "" : " ", escaped(text("[", dimensions_of(wire), "]")));
   return out;
 }
 

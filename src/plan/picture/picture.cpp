@@ -16,7 +16,7 @@ namespace {
 using namespace detail;
 using Block = Picture::Block;
 
-/// Feeds an open input of the drawn system with a continuous signal of its width.
+/// Feeds an open input of the drawn system with a continuous signal of its shape.
 class OpenInput final : public LeafSystem {
  public:
   explicit OpenInput(LeafPort target) {
@@ -174,6 +174,7 @@ class Drawing {
       const PlanLeaf& of = plan_->leaves[leaf];
       const Node& node = plan_->node(input ? of.inputs[index] : of.outputs[index]);
       wire.flow = flow_of(node), wire.width = node.shape.size;
+      wire.columns = node.shape.columns;
       if (input) {
         const Reading reading = nth(nth(readings_, leaf), index);
         wire.event = reading.event && !reading.flow;
@@ -221,6 +222,10 @@ class Drawing {
 
 Picture picture(const System& system, const PictureOptions& options) {
   return Drawing(system, options).draw();
+}
+
+std::string dimensions_of(const Picture::Wire& wire) {
+  return wire.columns > 0 ? text(wire.width / wire.columns, " x ", wire.columns) : text(wire.width);
 }
 
 bool obvious(const std::vector<std::string>& ports, std::string_view usual) {

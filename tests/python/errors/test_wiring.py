@@ -138,12 +138,12 @@ def test_an_unknown_name_is_answered_with_the_nearest(call, message):
     [
         (
             Gain([1.0, 2.0], name="k"),
-            "block 'k': expected scalars and vectors of one width, found the widths 2, 3; bring "
-            "them to one width, for example with a Multiplexer",
+            "block 'k': expected scalars and signals of one shape, found the shapes (2,), (3,); "
+            "bring them to one shape, for example with a Multiplexer",
         ),
         (
             Integrator([0.0, 0.0], name="k"),
-            "input 'in' of block 'k': expected 2 values, found 3 from output 'v.out'",
+            "input 'in' of block 'k': expected shape (2,), found shape (3,) from output 'v.out'",
         ),
     ],
 )
@@ -252,7 +252,8 @@ def test_build_refuses_widths_that_do_not_fit(kind):
     if not isinstance(target, Integrator):
         builder.export_output(target.output(), "y")
     assert refused(builder.build).startswith(
-        f"input 'in' of block 'k': expected 2 values, found 3 from output '{port.system.name}.out'"
+        "input 'in' of block 'k': expected shape (2,), found shape (3,) from output "
+        f"'{port.system.name}.out'"
     )
 
 
@@ -268,7 +269,7 @@ def test_build_refuses_widths_that_meet_in_an_inner_diagram():
     three = outer.add(Constant([1.0, 2.0, 3.0], name="three"))
     outer.add(inner)
     outer.connect(three.output(), inner.input())
-    assert "block 'sum': expected scalars and vectors of one width" in refused(outer.build)
+    assert "block 'sum': expected scalars and signals of one shape" in refused(outer.build)
 
 
 def test_build_calls_no_function_of_a_user():

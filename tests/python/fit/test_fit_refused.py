@@ -61,7 +61,7 @@ DATA = {
     "unknown": ({"time": T, "hight": Y}, "unknown signal 'hight'; did you mean 'height'"),
     "length": (
         {"time": T, "height": Y[:2]},
-        "'height': expected a value or a vector for each of 3",
+        "'height': expected a value, a vector or a matrix for each of 3",
     ),
     "text": ({"time": T, "height": ["a", "b", "c"]}, "'height': expected numbers"),
     "infinite": ({"time": T, "height": [1, np.inf, 1]}, "'height' is infinite at t = 0.2 s"),

@@ -151,7 +151,7 @@ def test_random_flows_against_differences(seed):
         (["force"], None, "is open and has no value"),
         ({"force": 0.0, "x[0]": None}, None, "is a state or a mode"),
         ({"force": 0.0, "mass": None}, None, "unknown parameter or state 'mass'"),
-        ({"force": [[0.0]]}, None, "expected a number or a vector"),
+        ({"force": [[[0.0]]]}, None, "expected a number, a vector or a matrix"),
         ({"force": 0.0}, ["stat"], "did you mean 'state'"),
         ("force", None, "expected a list of names"),
     ],

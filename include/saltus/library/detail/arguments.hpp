@@ -12,20 +12,28 @@
 
 namespace saltus {
 
-/// A number or a vector. A number makes a scalar signal; a vector, even of a single entry, makes a
-/// vector signal.
+/// A number, a vector or a matrix. A number makes a scalar signal; a vector, even of a single entry,
+/// a vector signal. A type of Eigen with one column or one row is a vector, every other one, such as
+/// MatrixXd, a matrix.
 struct Value {
   Value(double number);                          // NOLINT(google-explicit-constructor)
   Value(std::initializer_list<double> numbers);  // NOLINT(google-explicit-constructor)
   Value(Eigen::VectorXd numbers);                // NOLINT(google-explicit-constructor)
   template <class Derived>
+    requires(Derived::IsVectorAtCompileTime != 0)
   Value(const Eigen::MatrixBase<Derived>& numbers)  // NOLINT(google-explicit-constructor)
       : Value(Eigen::VectorXd(numbers)) {}
+  template <class Derived>
+    requires(Derived::IsVectorAtCompileTime == 0)
+  Value(const Eigen::MatrixBase<Derived>& numbers)  // NOLINT(google-explicit-constructor)
+      : Value(MatrixByRows(numbers)) {}
+  Value(const MatrixByRows& numbers);  // NOLINT(google-explicit-constructor)
 
-  Shape shape() const { return {values.size(), vector}; }
+  Shape shape() const { return {values.size(), vector, columns}; }
 
-  Eigen::VectorXd values;
-  bool vector = false;
+  Eigen::VectorXd values;  ///< of a matrix: row by row
+  bool vector = false;     ///< a vector or a matrix
+  Index columns = 0;       ///< of a matrix
 };
 
 namespace detail {

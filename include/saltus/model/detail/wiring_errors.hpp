@@ -7,6 +7,7 @@
 
 #include "saltus/base/ids.hpp"
 #include "saltus/base/model_errors.hpp"
+#include "saltus/model/shape.hpp"
 
 namespace saltus::detail {
 
@@ -21,11 +22,16 @@ namespace saltus::detail {
   throw AlgebraicLoopError(message);
 }
 
-/// Refuses a source of an input that expects another number of values.
-[[noreturn]] inline void throw_wrong_width(std::string_view input, std::string_view block,
-                                           Index expected, Index found, std::string_view source) {
-  throw ShapeMismatchError(text("input '", input, "' of block '", block, "': expected ", expected,
-                                " values, found ", found, " from ", source));
+/// Refuses a source of an input that expects another shape.
+[[noreturn]] inline void throw_wrong_shape(std::string_view input, std::string_view block,
+                                           const Shape& expected, const Shape& found,
+                                           std::string_view source) {
+  const bool flatten = found.is_matrix() && expected == Shape::of(found.size);
+  throw ShapeMismatchError(text("input '", input, "' of block '", block, "': expected ",
+                                in_words(expected), ", found ", in_words(found), " from ", source,
+                                flatten ? "; a Multiplexer of one input gives the entries of a "
+                                          "matrix as a vector, row by row"
+                                        : ""));
 }
 
 }  // namespace saltus::detail

@@ -129,7 +129,7 @@ inline bool shape_node(const Plan& plan, Node& node) {
   const std::optional<Shape> fixed = [&]() -> std::optional<Shape> {
     if (!node.relation) return plan.output_of(node).shape;
     const auto size = plan.relation_of(node).size;
-    return size ? std::optional(Shape{*size, *size > 1}) : std::nullopt;
+    return size ? std::optional(Shape{*size, *size > 1, 0}) : std::nullopt;
   }();
   const auto inputs =
       fixed ? std::optional<std::vector<Shape>>() : input_shapes(plan, plan.leaf_of(node));
@@ -193,16 +193,15 @@ inline void add_shapes(Plan& plan) {
   }
 }
 
-/// Checks that every input gets the shape it asked for, and that elementwise blocks get equal
-/// widths.
+/// Checks that every input gets the shape it asked for.
 inline void check_shapes(const Plan& plan) {
   for (const PlanLeaf& leaf : plan.leaves) {
     for (std::size_t i = 0; i < leaf.inputs.size(); ++i) {
       const Node& source = plan.node(leaf.inputs[i]);
       const InputDeclaration& input = leaf.declared().inputs[i];
-      if (input.shape && input.shape->size != source.shape.size) {
+      if (!input.takes(source.shape)) {
         const bool fixed = is_fixed(plan, source);
-        throw_wrong_width(input.name, leaf.path, input.shape->size, source.shape.size,
+        throw_wrong_shape(input.name, leaf.path, *input.shape, source.shape,
                           fixed ? "its fixed value" : text("output '", plan.name_of(source), "'"));
       }
     }
@@ -213,12 +212,13 @@ inline void check_shapes(const Plan& plan) {
 inline void add_places(Plan& plan) {
   for (Node& node : plan.nodes) {
     if (!node.view) {
-      node.place = {Space::y, plan.ny, node.shape.size};
+      node.place = {Space::y, plan.ny, node.shape.size, node.shape.columns};
       plan.ny += node.shape.size;
       continue;
     }
     const PlanLeaf& leaf = plan.leaf_of(node);
     node.place = *plan.output_of(node).view;
+    node.place.columns = static_cast<int>(node.shape.columns);
     node.place.offset += node.place.space == Space::x   ? leaf.x
                          : node.place.space == Space::z ? leaf.z
                                                         : leaf.p;

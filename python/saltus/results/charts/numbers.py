@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from saltus._core import known_names
+from saltus._entries import entry_names
 from saltus._whole import is_whole
 from saltus.errors import ModelError
 from saltus.results.curves import Curve, curves_of
@@ -20,13 +21,13 @@ Which = str | int
 
 
 def labels_of(results: Results) -> list[str]:
-    """The names of all recorded numbers: 'y', or 'y[0]', 'y[1]', ... of a vector."""
+    """The names of all recorded numbers: 'y', 'y[0]', ... of a vector, 'y[0,0]', ... of
+    a matrix."""
     if not results.outputs:
         raise ModelError("nothing was recorded, so there is nothing to draw: give recorded_signals")
     labels = []
     for name, array in results.outputs.items():
-        flat = [name] if array.ndim == 1 else [f"{name}[{i}]" for i in range(array.shape[1])]
-        labels += flat
+        labels += entry_names(name, array.shape[1:])
     return labels
 
 
