@@ -106,6 +106,12 @@ void require_sound(const Continuation& c) {
     require(truth == 0.0 || truth == 1.0, text("a relation that is ", truth));
   for (const Continuation::Guard& guard : c.guards) require_sound(guard);
   for (const Continuation::Firings& firings : c.firings) require_sound(firings);
+  for (const Continuation::Contact& contact : c.contacts) {
+    require(contact.guard >= 0 && static_cast<std::size_t>(contact.guard) < c.guards.size(),
+            text("a contact of guard ", contact.guard, ", of ", c.guards.size()));
+    require(contact.look_ahead >= 0.0 && std::isfinite(contact.look_ahead),
+            text("a contact with look ahead ", contact.look_ahead));
+  }
   for (const int edge : c.edges) require(edge == 0 || edge == 1, text("an edge that is ", edge));
   for (const std::int64_t count : c.counts)
     require(count >= 0 && count <= std::numeric_limits<std::int64_t>::max() / 2,

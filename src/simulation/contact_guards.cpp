@@ -175,19 +175,19 @@ bool ContactGuards::follow_surface(SurfaceContact& contact) {
   return !pressure.lifts_off;
 }
 
-void ContactGuards::save(std::vector<Continuation::Guard>& guards) const {
-  for (const SurfaceContact& contact : contacts_.all()) {
-    Continuation::Guard& guard = guards[contact.guard()];
-    guard.pressed_on = contact.pressed_on, guard.look_ahead = contact.look_ahead;
-  }
+std::vector<Continuation::Contact> ContactGuards::save() const {
+  std::vector<Continuation::Contact> saved;
+  for (const SurfaceContact& contact : contacts_.all())
+    saved.push_back({contact.slot, contact.pressed_on, contact.look_ahead});
+  return saved;
 }
 
 /// Takes over what an earlier piece of the run knew of a contact. The rest of a run decides how far the
 /// flow is looked ahead, so the lift may have another sign in this piece though nothing has turned:
 /// then the look ahead of the earlier piece is kept.
-void ContactGuards::take_over(SurfaceContact& contact, const Continuation::Guard& saved) {
+void ContactGuards::take_over(SurfaceContact& contact, const Continuation::Contact& saved) {
   contact.pressed_on = saved.pressed_on;
-  if (!saved.pressed_on || contact.members.empty()) return;
+  if (!saved.pressed_on || saved.look_ahead == 0.0 || contact.members.empty()) return;
   const auto leads_off = [&] {
     return contacts_.lift(contact, present_->t, machine_->x.data()) > 0.0;
   };
@@ -197,11 +197,12 @@ void ContactGuards::take_over(SurfaceContact& contact, const Continuation::Guard
   if (leads_off()) contact.look_ahead = chosen;
 }
 
-void ContactGuards::load(const std::vector<Continuation::Guard>& guards) {
+void ContactGuards::load(const std::vector<Continuation::Contact>& saved) {
   for (const std::size_t k : guards_->active().all) {
     SurfaceContact* contact = contact_of(k);
     if (contact == nullptr) continue;
-    take_over(*contact, guards[k]);
+    const auto known = std::ranges::find(saved, contact->slot, &Continuation::Contact::guard);
+    take_over(*contact, known == saved.end() ? Continuation::Contact{} : *known);
     arm(*contact, (*guards_)[k].error);
   }
 }

@@ -63,13 +63,12 @@ void Instant::select_guards() {
 }
 
 Continuation Instant::save() const {
-  std::vector<Continuation::Guard> guards = records_of(*guards_);
-  contacts_.save(guards);
   return {.jump = jump_,
           .relations = relations_.save(),
-          .guards = std::move(guards),
+          .guards = records_of(*guards_),
           .firings = holds_.save(),
           .edges = edges_.save(),
+          .contacts = contacts_.save(),
           .counts = journal_.save()};
 }
 
@@ -92,7 +91,7 @@ void Instant::resume(double t, Recorder* recorder, const Continuation& from, dou
   if (!plan().guards.empty()) machine_->guards(t, machine_->x.data(), present_.g.data());
   load_records(*guards_, from.guards);
   guards_->g = present_.g;
-  contacts_.load(from.guards);
+  contacts_.load(from.contacts);
 }
 
 void Instant::undo() {

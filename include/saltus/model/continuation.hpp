@@ -18,9 +18,6 @@ struct Continuation {
   struct Guard {
     int side = 0, from = 0;
     bool at_zero = false, resting = false;
-    /// A block rests on it: whether the flow led into its surface, and how far it was looked ahead [s].
-    bool pressed_on = false;
-    double look_ahead = 0.0;
     double error = 0.0, base = 0.0;
     bool operator==(const Guard&) const = default;
   };
@@ -33,11 +30,20 @@ struct Continuation {
     bool operator==(const Firings&) const = default;
   };
 
+  /// Blocks at rest on the surface of one guard.
+  struct Contact {
+    int guard = 0;            ///< its number
+    bool pressed_on = true;   ///< the flow led into the surface when it last led anywhere
+    double look_ahead = 0.0;  ///< [s] how far the flow is followed for that; 0 if it is not known
+    bool operator==(const Contact&) const = default;
+  };
+
   int jump = 0;                        ///< j
   std::vector<double> relations = {};  ///< truth of all relations that are held
   std::vector<Guard> guards = {};
-  std::vector<Firings> firings = {};      ///< of the guards, then of the watched edges
-  std::vector<int> edges = {};            ///< watched signals: true (1) or false (0)
+  std::vector<Firings> firings = {};  ///< of the guards, then of the watched edges
+  std::vector<int> edges = {};        ///< watched signals: true (1) or false (0)
+  std::vector<Contact> contacts = {};
   std::vector<std::int64_t> counts = {};  ///< firings of each guard, for max_count
   /// Of each island of a run with the option islands. All other lists are then empty, and `jump` is
   /// the sum.

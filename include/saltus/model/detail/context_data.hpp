@@ -116,6 +116,11 @@ void fields_of(Archive& archive, Continuation& c) {
     one.field("holding", firings.holding);
   });
   archive.field("edges", c.edges);
+  archive.optional_records("contacts", c.contacts, [](auto& one, auto& contact) {
+    one.field("guard", contact.guard);
+    one.field("pressed_on", contact.pressed_on);
+    one.field("look_ahead", contact.look_ahead);
+  });
   archive.field("counts", c.counts);
   archive.optional("settled", c.settled);
   archive.optional_records("islands", c.islands,

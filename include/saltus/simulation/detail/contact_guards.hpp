@@ -43,11 +43,11 @@ class ContactGuards {
   /// there. A leaf that is not executed stays as it is, at rest, but no surface moves it.
   void release_unseen(Unseen why);
 
-  /// Adds to the records of all guards what is known of their contacts.
-  void save(std::vector<Continuation::Guard>& guards) const;
+  /// What is known of the contacts.
+  std::vector<Continuation::Contact> save() const;
   /// Finds the contacts again, after the holds were loaded. A contact that ended at the very time of
   /// the context gives a firing.
-  void load(const std::vector<Continuation::Guard>& guards);
+  void load(const std::vector<Continuation::Contact>& saved);
 
  private:
   const GuardGroup& group_of(std::size_t k) const;
@@ -58,7 +58,7 @@ class ContactGuards {
   void arm(SurfaceContact& contact, double error);
   bool place(SurfaceContact& contact);
   bool follow_surface(SurfaceContact& contact);
-  void take_over(SurfaceContact& contact, const Continuation::Guard& saved);
+  void take_over(SurfaceContact& contact, const Continuation::Contact& saved);
   bool wake(SurfaceContact& contact);
   void let_go(SurfaceContact& contact, int side);
   void release_kicked_edge(std::size_t e);
