@@ -95,7 +95,8 @@ void ControlledLeaf::gate_controls() {
     OutputDeclaration& output = declared_.outputs[i];
     output.calc = zero_unless(system_, output.calc, control_);
     output.formula = zero_unless(output.formula, output.calc, control_, 1);
-    output.inputs = with_control(has(output.reads, Reads::inputs) ? output.inputs : Named({}));
+    output.inputs =
+        with_control(has(output.reads, Reads::inputs) ? output.inputs : std::vector<int>());
     output.reads = output.reads | Reads::inputs;
   }
 }

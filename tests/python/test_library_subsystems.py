@@ -418,9 +418,7 @@ def test_an_inner_part_is_enabled_while_both_control_signals_are_true(python):
         for outputs in itertools.product(["held", "reset"], repeat=2):
             for _ in range(10):
                 scene = control(), control(), states, outputs
-                results = saltus.simulate(
-                    nested(*scene), (0.0, 10.0), save_at=times, python=python
-                )
+                results = saltus.simulate(nested(*scene), (0.0, 10.0), save_at=times, python=python)
                 rows = np.searchsorted(results.time, times - 1e-9)
                 # x' = 1 is integrated to some roundings of 10 s
                 np.testing.assert_allclose(
@@ -469,7 +467,41 @@ def test_a_held_output_has_the_derivative_that_it_had_before_the_instant(python)
     builder.connect(control.output(), outer.input("enable"))
     builder.export_output(outer.output("y"), "y")
     system = builder.build()
-    results = saltus.simulate(system, (0.0, 3.0), sensitivity=["outer.between.inner.level.p"], python=python)
+    results = saltus.simulate(
+        system, (0.0, 3.0), sensitivity=["outer.between.inner.level.p"], python=python
+    )
     assert np.ravel(results["y"])[-1] == pytest.approx(6.0, abs=1e-9)
     # by differences of a called function: 1e-10 of the values
     assert np.ravel(results.sensitivities["y"])[-1] == pytest.approx(2.0, abs=1e-8)
+
+
+@pytest.mark.parametrize("of_inner", [Constant, Sine, Pulse])
+@pytest.mark.parametrize(("values", "updates"), [((0.0, 1.0), 1.0), ((1.0, 0.0), 2.0)])
+def test_an_update_at_the_tick_at_which_the_outer_part_changes(of_inner, values, updates):
+    """Ticks at 0, 0.5 and 1 s. The outer part is enabled or disabled at 1 s, the inner signal is true:
+    the update of that tick runs if the part is enabled after it."""
+    counter = saltus.LeafSystem(name="counter")
+    counter.declare_discrete_state(0.0)
+    counter.declare_periodic_update(
+        lambda t, s: s.with_discrete_state(s.discrete_state + 1.0), period=0.5
+    )
+    counter.declare_discrete_state_output("y")
+    options = {
+        Constant: {"value": 1.0},
+        Sine: {"frequency": 0.1, "phase": 1.0},
+        Pulse: {"period": 4.0},
+    }
+    inner_control = of_inner(**options[of_inner], name="inner_control")
+    inner = EnabledSubsystem(counter, name="inner")
+    between = saltus.DiagramBuilder()
+    between.add(inner, inner_control)
+    between.connect(inner_control.output(), inner.input("enable"))
+    between.export_output(inner.output("y"), "y")
+    outer = EnabledSubsystem(between.build("between"), name="outer")
+    builder = saltus.DiagramBuilder()
+    control = DataSource([0.0, 1.0], list(values), interpolation="zero_order_hold", name="control")
+    builder.add(outer, control)
+    builder.connect(control.output(), outer.input("enable"))
+    builder.export_output(outer.output("y"), "y")
+    results = saltus.simulate(builder.build(), (0.0, 1.25))
+    assert np.ravel(results["y"])[-1] == updates

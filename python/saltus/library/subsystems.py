@@ -256,10 +256,13 @@ def _require_name(name: str, system: System, control: str) -> None:
 
 def _refuse_width(name: str, initial: Mapping[str, ArrayLike], error: ShapeMismatchError) -> None:
     """BlockParameterError if the output before the first execution has another width."""
-    found = re.search(r"of block 'held_(.+)': expected (\d+) values, found (\d+) from", str(error))
+    found = re.search(
+        r"of block 'held_(.+)': expected (a scalar|shape \((\d+),\)), found shape \((\d+),\) from",
+        str(error),
+    )
     if found is None:
         return
-    of, given, width = found[1], int(found[2]), int(found[3])
+    of, given, width = found[1], int(found[3] or 1), int(found[4])
     what = (
         f"initial_outputs says {given}" if of in initial else "initial_outputs says nothing of it"
     )
