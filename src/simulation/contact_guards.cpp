@@ -178,15 +178,17 @@ bool ContactGuards::follow_surface(SurfaceContact& contact) {
 std::vector<Continuation::Contact> ContactGuards::save() const {
   std::vector<Continuation::Contact> saved;
   for (const SurfaceContact& contact : contacts_.all())
-    saved.push_back({contact.slot, contact.pressed_on, contact.look_ahead});
+    saved.push_back({contact.slot, contact.pressed_on,
+                     std::max(contact.look_ahead, contact.earlier_look_ahead)});
   return saved;
 }
 
 /// Takes over what an earlier piece of the run knew of a contact. The rest of a run decides how far the
 /// flow is looked ahead, so the lift may have another sign in this piece though nothing has turned:
-/// then the look ahead of the earlier piece is kept.
+/// then the look ahead of the earlier pieces is kept. It is the longest of them, because a short piece
+/// looks ahead too little to see more than rounding.
 void ContactGuards::take_over(SurfaceContact& contact, const Continuation::Contact& saved) {
-  contact.pressed_on = saved.pressed_on;
+  contact.pressed_on = saved.pressed_on, contact.earlier_look_ahead = saved.look_ahead;
   if (!saved.pressed_on || saved.look_ahead == 0.0 || contact.members.empty()) return;
   const auto leads_off = [&] {
     return contacts_.lift(contact, present_->t, machine_->x.data()) > 0.0;

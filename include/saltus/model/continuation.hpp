@@ -34,7 +34,7 @@ struct Continuation {
   struct Contact {
     int guard = 0;            ///< its number
     bool pressed_on = true;   ///< the flow led into the surface when it last led anywhere
-    double look_ahead = 0.0;  ///< [s] how far the flow is followed for that; 0 if it is not known
+    double look_ahead = 0.0;  ///< [s] how far the flow was followed for that; 0: not known
     bool operator==(const Contact&) const = default;
   };
 

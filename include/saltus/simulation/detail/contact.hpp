@@ -27,6 +27,7 @@ struct SurfaceContact {
   bool pressed_on = false;  // the flow led into the surface when it last led anywhere
   double error = 0.0;       // the guard is at zero within it
   double look_ahead = 0.0;  // [s] see lift
+  double earlier_look_ahead = 0.0;  // [s] the longest of the earlier pieces of the run
   std::vector<Member> members = {};
   std::vector<Index> states = {};  // entries of x that rest
 
