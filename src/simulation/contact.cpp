@@ -67,7 +67,7 @@ double Contacts::extrapolate(const SurfaceContact& contact, double* x) {
     const double size = std::max(
         {std::abs(original_[i]), std::abs(begun_[i]), std::abs(once_[i]), std::abs(twice_[i])});
     furthest = std::max(furthest, std::abs(first) / (fixed_point_roundings * eps * size + 1e-300));
-    const double limit = begun_[i] - first * first / (second - first);
+    const double limit = begun_[i] - first * (first / (second - first));  // a square may underflow
     const bool told = std::abs(first) > fixed_point_roundings * eps * size && std::isfinite(limit);
     x[i] = told ? limit : once_[i];
   }

@@ -200,6 +200,13 @@ void ContactGuards::take_over(SurfaceContact& contact, const Continuation::Conta
 }
 
 void ContactGuards::load(const std::vector<Continuation::Contact>& saved) {
+  // The guard of a part that is not executed is armed when it is seen again.
+  for (const Continuation::Contact& known : saved) {
+    const auto k = static_cast<std::size_t>(known.guard);
+    SurfaceContact* contact = (*guards_)[k].active ? nullptr : contact_of(k);
+    if (contact != nullptr)
+      contact->pressed_on = known.pressed_on, contact->earlier_look_ahead = known.look_ahead;
+  }
   for (const std::size_t k : guards_->active().all) {
     SurfaceContact* contact = contact_of(k);
     if (contact == nullptr) continue;

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import saltus
-from saltus.library import DataSource
+from saltus.library import DataSource, EnabledSubsystem
 
 METHODS = ["dopri5", "dop853", "radau", "bdf", "adams", "auto"]
 
@@ -131,3 +131,55 @@ def test_a_block_leaves_a_moving_table_wherever_the_run_is_cut_twice(restitution
             # KNOWN_GAPS.md), and the speed there to its square: 1e-6 too.
             above = context.continuous_state[0] - height(4.0)
             assert above == pytest.approx(1.0 / 6.0, abs=1e-3), (first, second)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("speed", [0.0, 1e-30, -1e-12, 1e-160, -1e-160, -1e-200, 1e-300, -1e-310])
+def test_a_residual_speed_keeps_no_block_at_rest(method, speed):
+    """The law of impact leaves a speed whose square underflows; x'' = t - 3 lets the block go."""
+    body = saltus.LeafSystem(name="body")
+    body.declare_continuous_state(
+        [0.0, speed], ode=lambda t, s: np.array([s.continuous_state[1], t - 3.0])
+    )
+    body.declare_zero_crossing(
+        lambda t, s: s.continuous_state[0],
+        reset_map=lambda t, s: s.with_continuous_state(
+            np.array([0.0, -0.3 * s.continuous_state[1]])
+        ),
+        direction="falling",
+    )
+    end = saltus.simulate(body, (0.0, 4.0), ode_solver_method=method).context
+    # the tolerance is 1e-6, and 1e-3 allows for a thousand of it
+    assert end.continuous_state[0] == pytest.approx(1.0 / 6.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("release", [2.5, 3.5])
+def test_a_block_at_rest_in_a_part_that_is_disabled_is_let_go_at_any_cut(release):
+    """The part is disabled from 2 to 3 s; the force is t - release."""
+    body = saltus.LeafSystem(name="body")
+    body.declare_continuous_state(
+        [0.2, 0.0], ode=lambda t, s: np.array([s.continuous_state[1], t - release])
+    )
+    body.declare_zero_crossing(
+        lambda t, s: s.continuous_state[0],
+        reset_map=lambda t, s: s.with_continuous_state(np.zeros(2)),
+        direction="falling",
+    )
+    body.declare_continuous_state_output("x")
+    part = EnabledSubsystem(body, initial_outputs={"x": [0.0, 0.0]})
+    control = DataSource([0.0, 2.0, 3.0], [1.0, 0.0, 1.0], interpolation="zero_order_hold")
+    builder = saltus.DiagramBuilder()
+    builder.add(part, control)
+    builder.connect(control.output(), part.input("enable"))
+    system = builder.build()
+    # from the later of 3 s and the release on the acceleration is t - release
+    start = max(3.0, release) - release
+    rest = 5.0 - max(3.0, release)
+    place = start * rest**2 / 2.0 + rest**3 / 6.0
+    for cuts in [(), (2.5,), (1.5, 2.5), (1.9, 2.1), (2.0 - 1e-9, 2.0 + 1e-9), (2.0 - 1e-9, 2.0),
+                 (2.0 - 1e-6, 2.0 + 1e-6), (2.0 - 1e-9, 2.0 + 1e-9, 3.2), (3.0 - 1e-9, 3.0 + 1e-9)]:  # fmt: skip
+        context, begin = system.create_context(), 0.0
+        for end in (*cuts, 5.0):
+            context = saltus.simulate(system, context, (begin, end)).context
+            begin = end
+        assert context.continuous_state[0] == pytest.approx(place, abs=1e-3), cuts
