@@ -48,8 +48,10 @@ py::object result_size(const BlockTraces& block, const Function& function) {
   }
 }
 
-/// The rows and columns of an output that is a matrix; otherwise None.
+/// The rows and columns of a rate or an output that is a matrix; otherwise None.
 py::object result_shape(const BlockTraces& block, const Function& function) {
+  const Dimensions& state = block.leaf->state_dimensions();
+  if (function.role == Role::ode && state.size() == 2) return as_tuple(state);
   if (function.role != Role::output) return py::none();
   const Shape& shape = nth(block.outputs, function.index);
   return shape.is_matrix() ? py::object(as_tuple(dimensions_of(shape))) : py::object(py::none());

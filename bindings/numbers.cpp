@@ -86,6 +86,14 @@ Dimensions dimensions_of(const py::array& array) {
   return {array.shape(), array.shape() + array.ndim()};
 }
 
+void require_matrix(py::handle result, const Dimensions& expected, const std::string& who) {
+  if (expected.size() != 2 || !py::isinstance<py::array>(result)) return;
+  const Dimensions found = dimensions_of(py::reinterpret_borrow<py::array>(result));
+  if (found.size() < 2 || found == expected) return;
+  throw ModelError(text(who, " an array of shape ", std::string(py::str(result.attr("shape"))),
+                        ", expected (", expected[0], ", ", expected[1], ")"));
+}
+
 Dimensions dimensions_of(const Shape& shape, Dimensions before) {
   if (shape.is_matrix()) before.push_back(shape.rows());
   if (shape.vector) before.push_back(shape.is_matrix() ? shape.columns : shape.size);

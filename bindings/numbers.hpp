@@ -38,6 +38,11 @@ void read_any_numbers(py::handle result, VectorRef out, const std::string& what)
 bool read_truths(py::handle result, VectorRef out);
 
 Dimensions dimensions_of(const py::array& array);
+
+/// Refuses an array of two dimensions or more in place of a matrix of other rows and columns, whose
+/// entries would come in another order. Lists, and the entries row by row, are counted by the one who
+/// reads them.
+void require_matrix(py::handle result, const Dimensions& expected, const std::string& who);
 /// () of a scalar, (n,) of a vector, (rows, columns) of a matrix; after `before`.
 Dimensions dimensions_of(const Shape& shape, Dimensions before = {});
 /// The shape of a signal with such dimensions; ModelError if there are more than two, or one of two

@@ -238,21 +238,21 @@ void PythonLeaf::fill(int k, const At& at, VectorRef out) const {
   const Frame& frame = prepare(borrowed.frame, function, at, out.size());
   const py::object result = vectorcall(function, frame);
   if (in_place(function)) return take_out(function, frame, result, out);
-  if (function.columns > 0) require_matrix(function, result, out.size());
+  if (gives_matrix(function))
+    require_matrix(result, expected_of(function, out.size()), text(whose(function), " returned"));
   if (read_plain_numbers(result, out)) return;
   if (is_guard(function.role) && read_truths(result, out)) return;
   read_any_numbers(result, out, whose(function));
 }
 
-/// Refuses a matrix of other rows and columns, whose entries would come in another order. Lists, and
-/// the entries row by row, are counted by the one who reads them.
-void PythonLeaf::require_matrix(const Function& function, py::handle result, Index size) const {
-  if (!py::isinstance<py::array>(result)) return;
-  const Dimensions found = dimensions_of(py::reinterpret_borrow<py::array>(result));
-  if (found.size() < 2 || found == Dimensions{size / function.columns, function.columns}) return;
-  throw ModelError(text(whose(function), " returned an array of shape ",
-                        std::string(py::str(result.attr("shape"))), ", expected ",
-                        to_string(Shape{size, true, function.columns})));
+bool PythonLeaf::gives_matrix(const Function& function) const {
+  return function.role == Role::ode ? x_dimensions_.size() == 2 : function.columns > 0;
+}
+
+/// The shape that the result of a function has to have, if that is a matrix.
+Dimensions PythonLeaf::expected_of(const Function& function, Index size) const {
+  if (function.role == Role::ode) return x_dimensions_;
+  return dimensions_of(Shape{size, true, function.columns});
 }
 
 void PythonLeaf::take_out(const Function& function, const Frame& frame, py::handle result,

@@ -126,6 +126,7 @@ void PythonLeaf::write(int k, py::handle result, Next& next) const {
     throw ModelError(text(whose(of), " returned ", values.size(), " numbers, expected ", size,
                           " for the ", discrete ? "discrete" : "continuous", " state"));
   }
+  require_matrix(result, discrete ? z_dimensions_ : x_dimensions_, text(whose(of), " returned"));
   discrete ? next.set_discrete_state(values) : next.set_continuous_state(values);
 }
 

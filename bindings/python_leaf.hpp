@@ -130,7 +130,8 @@ class PythonLeaf final : public LeafSystem {
   void write(int k, py::handle result, Next& next) const;
   void require_shape(int k, const std::optional<Shape>& shape) const;
   Shape shape_of_result(int k, const std::optional<py::array>& found) const;
-  void require_matrix(const Function& function, py::handle result, Index size) const;
+  bool gives_matrix(const Function& function) const;
+  Dimensions expected_of(const Function& function, Index size) const;
   void finish_outputs();
   void finish(OutputDeclaration& output, const Unfinished& entry, const Declarations& declared);
   std::string whose(const Function& function) const {

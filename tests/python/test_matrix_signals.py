@@ -325,3 +325,37 @@ def test_a_scene_file_has_matrices(tmp_path):
     end = scene.simulate()["X"][-1]
     c, s = np.cos(1.0), np.sin(1.0)
     np.testing.assert_allclose(end, [[c, -s], [s, c]], rtol=0, atol=4e-8)  # 40 steps of 1e-9
+
+
+TRANSPOSED = {
+    "ode": lambda leaf: leaf.declare_continuous_state(
+        np.ones((2, 3)), ode=lambda t, s: s.continuous_state.T
+    ),
+    "reset": lambda leaf: (
+        leaf.declare_continuous_state(np.ones((2, 3)), ode=lambda t, s: 0.0 * s.continuous_state),
+        leaf.declare_zero_crossing(
+            lambda t, s: t - 0.5,
+            reset_map=lambda t, s: s.with_continuous_state(s.continuous_state.T),
+        ),
+    ),
+    "update": lambda leaf: (
+        leaf.declare_discrete_state(default_value=np.ones((2, 3))),
+        leaf.declare_periodic_update(
+            lambda t, s: s.with_discrete_state(s.discrete_state.T), period=0.5
+        ),
+    ),
+    "update in numbers": lambda leaf: (
+        leaf.declare_discrete_state(default_value=np.ones((2, 3))),
+        leaf.declare_periodic_update(lambda t, s: np.ones((3, 2)), period=0.5),
+    ),
+}
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+@pytest.mark.parametrize("name", TRANSPOSED)
+def test_a_result_of_other_rows_and_columns_is_refused(name, python):
+    """Its six numbers would fill the 2 x 3 state in another order."""
+    leaf = saltus.LeafSystem(name="leaf")
+    TRANSPOSED[name](leaf)
+    with pytest.raises(saltus.ModelError, match=r"leaf.*\(3, 2\), expected \(2, 3\)"):
+        saltus.simulate(leaf, (0.0, 1.0), python=python)

@@ -14,6 +14,12 @@ from saltus.tracing.refusal import refuse
 __all__ = ["PlainState", "TracedState"]
 
 
+def _require_rows(data: Any, like: Any, what: str) -> None:
+    """A matrix of other rows and columns has its entries in another order."""
+    if like.ndim == 2 and data.ndim > 1 and tuple(data.shape) != tuple(like.shape):
+        raise ValueError(f"{what}: expected shape {tuple(like.shape)}, found {tuple(data.shape)}")
+
+
 class TracedState:
     """Has the members of `saltus.State`. Each `with_*` returns a new state that notes the write."""
 
@@ -64,6 +70,7 @@ class TracedState:
     @staticmethod
     def _filled(value: Any, like: Any, what: str) -> Any:
         data = as_array(value)
+        _require_rows(data, like, what)
         if data.size != like.size:
             raise ValueError(f"{what}: expected {like.size} numbers, found {data.size}")
         filled = data.astype(float).copy().reshape(like.shape)
@@ -89,6 +96,7 @@ class PlainState(TracedState):
     @staticmethod
     def _filled(value: Any, like: Any, what: str) -> Any:
         data = np.array(value, dtype=float)
+        _require_rows(data, like, what)
         if data.size != like.size:
             raise ValueError(f"{what}: expected {like.size} numbers, found {data.size}")
         data = data.reshape(like.shape)
