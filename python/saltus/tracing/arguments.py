@@ -166,7 +166,7 @@ def result_of(signature: Signature, returned: Any) -> Result:
         letter = _meant(signature)
         if len(numbers) != _size(signature, letter):
             refuse(f"returns {len(numbers)} numbers", f"return {_size(signature, letter)}")
-        start = signature.start(letter).shape
+        start = signature.state_shape if letter == "x" else signature.discrete_shape
         if len(start) == 2 and data.ndim > 1 and tuple(data.shape) != start:
             refuse(f"returns an array of shape {tuple(data.shape)}", f"return shape {start}")
         return Result(numbers, data.shape, False, letter)
