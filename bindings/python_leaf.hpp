@@ -122,7 +122,7 @@ class PythonLeaf final : public LeafSystem {
   void run_compiled(const Function& function, const At& at, double* out) const;
   void reset_compiled(const Function& function, const At& at, Next& next) const;
 
-  py::object call_with(int k, const std::vector<Shape>& shapes, double value) const;
+  py::object call_with(int k, const std::vector<Shape>& shapes, const Eigen::VectorXd& u) const;
   std::optional<py::array> sample(int k, std::vector<Shape> shapes,
                                   std::span<const Index> widths) const;
   Shape shape_of(int k, std::span<const Shape> inputs) const;

@@ -38,8 +38,31 @@ void PythonLeaf::require_shape(int k, const std::optional<Shape>& shape) const {
                         "shape=(m, n) for a matrix"));
 }
 
-/// Calls function k with the initial values of the block and every input filled with `value`.
-py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes, double value) const {
+namespace {
+
+/// The values of all inputs for a look at the shape of a result.
+enum class Probe { zeros, ones, identities };
+
+/// Identities: square matrices, where many functions need a regular one; ones elsewhere.
+Eigen::VectorXd values_of(const std::vector<Shape>& shapes, Probe probe) {
+  Index width = 0;
+  for (const Shape& shape : shapes) width += shape.size;
+  Eigen::VectorXd u = Eigen::VectorXd::Constant(std::max<Index>(width, 1), probe != Probe::zeros);
+  Index first = 0;
+  for (const Shape& shape : shapes) {
+    const bool square = shape.is_matrix() && shape.rows() == shape.columns;
+    if (square && probe == Probe::identities)
+      Eigen::Map<Eigen::MatrixXd>(u.data() + first, shape.columns, shape.columns).setIdentity();
+    first += shape.size;
+  }
+  return u;
+}
+
+}  // namespace
+
+/// Calls function k with the initial values of the block and the values `u` of all inputs.
+py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes,
+                                 const Eigen::VectorXd& u) const {
   const Declarations& d = declarations();
   const Function& function = this->function(k);
   for (const int i : function.inputs.value_or(std::vector<int>{})) {
@@ -53,7 +76,6 @@ py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes, double
     places.push_back({Space::y, width, shape.size, shape.columns});
     width += shape.size;
   }
-  const Eigen::VectorXd u = Eigen::VectorXd::Constant(std::max<Index>(width, 1), value);
   const Bases bases{d.continuous.initial.data(), d.discrete.data(), d.parameter_values.data(),
                     u.data()};
   const auto view = [](const Eigen::VectorXd& values) {
@@ -70,22 +92,23 @@ py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes, double
       0);
 }
 
-/// The result of the first call that succeeds: a zero may be a divisor, and an input of unknown
-/// width may be indexed.
+/// The result of the first call that succeeds: a zero may be a divisor, a matrix may be inverted, and
+/// an input of unknown width may be indexed.
 std::optional<py::array> PythonLeaf::sample(int k, std::vector<Shape> shapes,
                                             std::span<const Index> widths) const {
-  const py::object quiet = py::module_::import("numpy").attr("errstate")(py::arg("all") = "ignore");
+  const py::object errstate = py::module_::import("numpy").attr("errstate");
   std::vector<Shape> tried = shapes;
   for (const Index width : widths) {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       if (shapes[i].size == 0) tried[i] = width == 0 ? Shape::scalar() : Shape::of(width);
     }
-    for (const double value : {0.0, 1.0}) {
+    for (const Probe probe : {Probe::zeros, Probe::ones, Probe::identities}) {
       try {
+        const py::object quiet = errstate(py::arg("all") = "ignore");  // it is entered once only
         quiet.attr("__enter__")();
         py::object result;
         try {
-          result = call_with(k, tried, value);
+          result = call_with(k, tried, values_of(tried, probe));
         } catch (...) {
           quiet.attr("__exit__")(py::none(), py::none(), py::none());
           throw;

@@ -8,6 +8,7 @@ import saltus
 from saltus.library import (
     Adder,
     Constant,
+    FunctionBlock,
     Gain,
     Integrator,
     MatrixInversion,
@@ -359,3 +360,14 @@ def test_a_result_of_other_rows_and_columns_is_refused(name, python):
     TRANSPOSED[name](leaf)
     with pytest.raises(saltus.ModelError, match=r"leaf.*\(3, 2\), expected \(2, 3\)"):
         saltus.simulate(leaf, (0.0, 1.0), python=python)
+
+
+@pytest.mark.parametrize(
+    "function", [np.linalg.inv, lambda u: np.linalg.solve(u, np.eye(2)), np.linalg.cholesky]
+)
+def test_a_function_that_needs_a_regular_matrix_has_its_shape(function):
+    """The shape of its result is found with an identity, because zeros and ones are singular."""
+    matrix = np.array([[2.0, 1.0], [1.0, 3.0]])
+    result = saltus.response(FunctionBlock(lambda u: function(u)), matrix)
+    # one call of the same function with the same numbers
+    np.testing.assert_array_equal(np.asarray(result).reshape(2, 2), function(matrix))
