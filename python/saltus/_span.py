@@ -32,8 +32,8 @@ def span_of(where: str, t_span: object, backward: bool = False) -> tuple[float, 
 
 
 def rows_within(where: str, save_at: Sequence[float], span: tuple[float, float]) -> Sequence[float]:
-    """The times of rows of a run. One that is beyond an end by rounding, as 19 * 0.1 is beyond 1.9,
-    is that end. ModelError for other times before the begin of the run, or after its end.
+    """The times of rows of a run. A time may be beyond an end by rounding, as 19 * 0.1 is beyond 1.9;
+    then that end is taken. ModelError for other times before the begin of the run, or after its end.
     """
     begin, end = span
     outside = [time for time in save_at if not begin <= time <= end]

@@ -437,7 +437,8 @@ class Results(Pictures):
         for name in ("outputs",) if self._core.apart else ("outputs", "time", "jump"):
             getattr(made, name)  # the memory of the run, which is copied below
         for name, value in vars(made).items():
-            # an exception of the user need not be one that can be copied; Saltus's refer to results
+            # An exception that the user wrote may refuse to be copied, so it is shared. An exception
+            # of Saltus is copied, because it refers to the results.
             if name not in SHARED and (name != "cause" or isinstance(value, Error)):
                 made.__dict__[name] = deepcopy(value, memo)
         return made

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from saltus.tracing.numbers import Symbol, SymbolArray, as_array
 from saltus.tracing.refusal import refuse
 from saltus.tracing.signature import Shape, Signature
-from saltus.tracing.state import PlainState, TracedState
+from saltus.tracing.state import PlainState, TracedState, in_other_order
 
 __all__ = ["Point", "Result", "Symbols", "call", "plain_arguments", "plain_numbers", "result_of"]
 
@@ -167,7 +167,7 @@ def result_of(signature: Signature, returned: Any) -> Result:
         if len(numbers) != _size(signature, letter):
             refuse(f"returns {len(numbers)} numbers", f"return {_size(signature, letter)}")
         start = signature.state_shape if letter == "x" else signature.discrete_shape
-        if len(start) == 2 and data.ndim > 1 and tuple(data.shape) != start:
+        if in_other_order(data.shape, start):
             refuse(f"returns an array of shape {tuple(data.shape)}", f"return shape {start}")
         return Result(numbers, data.shape, False, letter)
     return Result(numbers, data.shape, data.kind == "b", "")

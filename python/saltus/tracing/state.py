@@ -11,12 +11,18 @@ import numpy as np
 from saltus.tracing.numbers import Symbol, SymbolArray, as_array
 from saltus.tracing.refusal import refuse
 
-__all__ = ["PlainState", "TracedState"]
+__all__ = ["PlainState", "TracedState", "in_other_order"]
 
 
-def _require_rows(data: Any, like: Any, what: str) -> None:
-    """A matrix of other rows and columns has its entries in another order."""
-    if like.ndim == 2 and data.ndim > 1 and tuple(data.shape) != tuple(like.shape):
+def in_other_order(found: tuple[int, ...], expected: tuple[int, ...]) -> bool:
+    """Whether the numbers of an array would fill a matrix of this shape in another order: it has
+    other rows and columns. The numbers alone, row by row, have no order of their own.
+    """
+    return len(expected) == 2 and len(found) > 1 and tuple(found) != tuple(expected)
+
+
+def _require_order(data: Any, like: Any, what: str) -> None:
+    if in_other_order(data.shape, like.shape):
         raise ValueError(f"{what}: expected shape {tuple(like.shape)}, found {tuple(data.shape)}")
 
 
@@ -70,7 +76,7 @@ class TracedState:
     @staticmethod
     def _filled(value: Any, like: Any, what: str) -> Any:
         data = as_array(value)
-        _require_rows(data, like, what)
+        _require_order(data, like, what)
         if data.size != like.size:
             raise ValueError(f"{what}: expected {like.size} numbers, found {data.size}")
         filled = data.astype(float).copy().reshape(like.shape)
@@ -96,7 +102,7 @@ class PlainState(TracedState):
     @staticmethod
     def _filled(value: Any, like: Any, what: str) -> Any:
         data = np.array(value, dtype=float)
-        _require_rows(data, like, what)
+        _require_order(data, like, what)
         if data.size != like.size:
             raise ValueError(f"{what}: expected {like.size} numbers, found {data.size}")
         data = data.reshape(like.shape)

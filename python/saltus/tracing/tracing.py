@@ -17,6 +17,7 @@ from saltus.tracing.refusal import Refusal, raised_at
 from saltus.tracing.rounding import Bounds
 from saltus.tracing.sandbox import Sandbox
 from saltus.tracing.signature import Refused, Signature, Traced
+from saltus.tracing.state import in_other_order
 
 __all__ = ["trace"]
 
@@ -125,8 +126,7 @@ def _require_size(result: Result, size: int) -> None:
 
 
 def _require_shape(result: Result, shape: tuple[int, ...] | None) -> None:
-    """A matrix of other rows and columns has its entries in another order."""
-    if shape is not None and len(result.shape) > 1 and tuple(result.shape) != tuple(shape):
+    if shape is not None and in_other_order(result.shape, shape):
         raise Refusal(f"returns an array of shape {result.shape}, expected {tuple(shape)}")
 
 
