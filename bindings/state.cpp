@@ -11,7 +11,8 @@ namespace {
 
 /// A copy of `values` with the dimensions of `like`.
 py::array replaced(py::handle values, const py::array& like, const std::string& what) {
-  require_matrix(values, dimensions_of(like), text(what, ": its new value is"));
+  if (like.ndim() == 2)
+    require_matrix(values, dimensions_of(like), text(what, ": its new value is"));
   const Array array = to_array(values, what);
   if (array.size() != like.size()) {
     throw ModelError(text(what, ": expected ", like.size(), " numbers, found ", array.size(),

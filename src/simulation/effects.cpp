@@ -27,9 +27,10 @@ void Effects::run_update(const Action& action, int source) {
 
 /// The effect that the author of a zero crossing or an edge declared.
 Effects::Effect Effects::effect_of(const Action& action) {
-  if (action.cause == Cause::edge)
-    return {&edges_->reset_of(action.index).reset_map, nullptr, &holds_->of_edge(action.index),
-            edges_->reset_of(action.index).reads_before};
+  if (action.cause == Cause::edge) {
+    const EdgeReset& reset = edges_->reset_of(action.index);
+    return {&reset.reset_map, nullptr, &holds_->of_edge(action.index), reset.reads_before};
+  }
   const ZeroCrossing& crossing = plan_->crossing_of(plan_->guards[action.index]);
   return {&crossing.reset_map, crossing.end_mode ? &*crossing.end_mode : nullptr,
           &holds_->of_guard(action.slot)};

@@ -25,7 +25,6 @@ Transition::Transition(Machine& machine)
       y_minus_(machine.y.size()),
       x_next_(machine.x.size()),
       z_next_(machine.z.size()),
-      minus_{x_minus_.data(), z_minus_.data(), machine.p.data(), y_minus_.data()},
       effects_(machine.plan().leaves.size(), 0) {}
 
 void Transition::open() {
@@ -72,7 +71,7 @@ At Transition::seen(int leaf, Index entry, double t) {
 }
 
 Inputs Transition::inputs_before(int leaf) {
-  minus_[static_cast<std::size_t>(Space::p)] = machine_->p.data();
+  minus_ = {x_minus_.data(), z_minus_.data(), machine_->p.data(), y_minus_.data()};
   const List<Place>& places = machine_->plan().leaf(leaf).input_places;
   return {places.data(), static_cast<int>(places.size()), &minus_};
 }

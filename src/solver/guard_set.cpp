@@ -75,12 +75,8 @@ void GuardSet::arm_again(const std::vector<Firing>& fired) {
 std::vector<Continuation::Guard> records_of(const GuardSet& guards) {
   std::vector<Continuation::Guard> saved;
   for (const Guard& guard : guards.all())
-    saved.push_back({.side = guard.side,
-                     .from = guard.came_from,
-                     .at_zero = guard.at_zero(),
-                     .resting = guard.rests,
-                     .error = guard.error,
-                     .base = guard.base});
+    saved.push_back(
+        {guard.side, guard.came_from, guard.at_zero(), guard.rests, guard.error, guard.base});
   return saved;
 }
 

@@ -95,7 +95,7 @@ class Transition {
   Machine* machine_;
   Tangents* tangents_ = nullptr;
   Eigen::VectorXd x_minus_, z_minus_, y_minus_, x_next_, z_next_;
-  Bases minus_;  // the values before the instant
+  Bases minus_ = {};  // the values before the instant
   List<int> modes_next_, modes_before_;
   List<int> modes_minus_;    // before the instant, once a commit has changed a mode
   bool wrote_mode_ = false;  // in the last pass: modes_next_ may differ from the modes
