@@ -3,14 +3,45 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <string_view>
 
 namespace saltus::python {
 
 namespace {
 
+/// Whether the entries of an array are real numbers. A cast of NumPy would drop an imaginary part,
+/// read a text as a number, and count the days of a date.
+bool is_real(const py::array& array) {
+  constexpr std::string_view real = "biufO";  // objects, such as Fraction, convert themselves
+  return real.find(array.dtype().kind()) != std::string_view::npos;
+}
+
+/// Whether an object is an ndarray itself, and of no class derived from it.
+bool is_plain_array(py::handle object) {
+  static const PyObject* const plain = py::type::of(py::array()).release().ptr();  // never freed
+  return reinterpret_cast<const PyObject*>(Py_TYPE(object.ptr())) == plain;
+}
+
+/// Whether a masked array has an entry that its mask hides: that entry is no number.
+bool has_masked_entries(py::handle object) {
+  if (!py::isinstance<py::array>(object) || is_plain_array(object)) return false;
+  return py::module_::import("numpy").attr("ma").attr("is_masked")(object).cast<bool>();
+}
+
+/// The array of doubles that NumPy makes of an object; none, and no Python error, of what is not
+/// real, is masked, or cannot be converted.
+Array real_array(py::handle object) {
+  const py::array array = py::array::ensure(object);
+  const bool real = array && is_real(array) && !has_masked_entries(object);
+  Array numbers = real ? Array::ensure(object) : py::reinterpret_steal<Array>(nullptr);
+  if (!numbers) PyErr_Clear();
+  return numbers;
+}
+
 /// "'fast' (str)", "an array of complex128", "None".
 std::string described(py::handle object) {
   if (object.is_none()) return "None";
+  if (has_masked_entries(object)) return "an array with masked entries";
   if (py::isinstance<py::array>(object))
     return text("an array of ", std::string(py::str(object.attr("dtype"))));
   const auto shown = py::module_::import("reprlib").attr("repr")(object);
@@ -23,12 +54,7 @@ bool is_text_or_none(py::handle object) {
   return object.is_none() || PyUnicode_Check(of) || PyBytes_Check(of) || PyByteArray_Check(of);
 }
 
-bool is_no_number(py::handle object) {
-  if (is_text_or_none(object)) return true;
-  const bool none = !Array::ensure(object);  // refuses complex numbers
-  PyErr_Clear();
-  return none;
-}
+bool is_no_number(py::handle object) { return is_text_or_none(object) || !real_array(object); }
 
 struct Entry {
   py::handle object;
@@ -61,13 +87,9 @@ std::string not_numbers(py::handle object) {
 /// An array of doubles, or no array and no Python error.
 Array numbers_in(py::handle object) {
   if (entry_that(is_text_or_none, object)) return py::reinterpret_steal<Array>(nullptr);
-  Array array = Array::ensure(object);
-  if (array) return array;
-  PyErr_Clear();
-  if (!py::hasattr(object, "toarray")) return array;
-  array = Array::ensure(object.attr("toarray")());  // a sparse matrix of SciPy
-  if (!array) PyErr_Clear();
-  return array;
+  const Array array = real_array(object);
+  if (array || !py::hasattr(object, "toarray")) return array;
+  return real_array(object.attr("toarray")());  // a sparse matrix of SciPy
 }
 
 }  // namespace
@@ -197,7 +219,7 @@ bool read_plain_numbers(py::handle result, VectorRef out) {
     if (out.size() == 1) out[0] = PyFloat_AS_DOUBLE(object);
     return out.size() == 1;
   }
-  if (py::isinstance<py::array>(result)) return read_array(result, out);
+  if (is_plain_array(result)) return read_array(result, out);
   if (PyLong_CheckExact(object)) return read_integer(object, out);  // no bool
   if (PyList_CheckExact(object) || PyTuple_CheckExact(object)) {
     return read_items(PySequence_Fast_ITEMS(object), PySequence_Fast_GET_SIZE(object), out);

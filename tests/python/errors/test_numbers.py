@@ -30,6 +30,10 @@ NONE_OF_THEM = [
     ([[1.0, 2.0], [3.0]], "a list of entries of different lengths"),
     (np.array(["0.8", "1"]), "an array of <U3"),
     (np.array([1j, 0.0]), "an array of complex128"),
+    (np.complex128(1j), "np.complex128(1j) (numpy.complex128)"),
+    ([0.0, np.complex64(0.0)], LIST + "[1] is np.complex64(0j) (numpy.complex64)"),
+    (np.ma.array([1.0, 2.0], mask=[True, False]), "an array with masked entries"),
+    (np.array([1, 2], dtype="timedelta64[s]"), "an array of timedelta64[s]"),
 ]
 
 
@@ -55,7 +59,14 @@ def test_a_callback_that_returns_no_numbers_is_told_which_entry(value, found):
 
 
 @pytest.mark.parametrize(
-    "value", [[1, 2.0], (np.float32(1), True + 1), np.array([1, 2]), [np.array(1.0), np.int8(2)]]
+    "value",
+    [
+        [1, 2.0],
+        (np.float32(1), True + 1),
+        np.array([1, 2]),
+        [np.array(1.0), np.int8(2)],
+        np.ma.array([1.0, 2.0], mask=[False, False]),
+    ],
 )
 def test_numbers_of_every_kind_are_numbers(value):
     context = Spring(lambda k: k).create_context()
