@@ -24,7 +24,7 @@ class Glance : protected Narrower {
       : Narrower(machine, guards, located) {
     const Index slots = machine.plan().look_slots;
     for (auto* values : {&oldest_, &earlier_, &speed_}) values->assign(slots, 1.0);
-    plain_.reserve(earlier_.size());
+    plain_.reserve(earlier_.size()), least_move_.reserve(earlier_.size());
   }
 
   bool scans() const { return scan_points_ > 0; }
@@ -38,11 +38,12 @@ class Glance : protected Narrower {
     version_ = guards_->version();
     set_limits();
     plain_.clear();
-    jumps_ = stepped_ = false;
+    least_move_.clear();
+    jumps_ = false;
     for (const std::size_t k : located_->slots) {
       plain_.push_back((*guards_)[k].plain_side());
       jumps_ = jumps_ || (*guards_)[k].jumps;
-      stepped_ = stepped_ || (*guards_)[k].stepped;
+      least_move_.push_back((*guards_)[k].stepped ? std::numeric_limits<double>::denorm_min() : 0);
     }
   }
   /// After a root there is no need to look up the records, because the engine writes them next.
@@ -52,14 +53,16 @@ class Glance : protected Narrower {
   /// zero and come back, even if it moved eight times as fast as it recently did (the bound of B.
   /// O. Shubert, "A sequential method seeking the global maximum of a function", SIAM J. Numer.
   /// Anal. 9 (1972) 379). The locator still looks into such a step from time to time. How fast a
-  /// guard moved says nothing of a function whose reads are looked at, because it may have steps.
+  /// guard moved says nothing of a function whose reads are looked at, because it may have steps;
+  /// nor of one that may have steps and had one value at both ends.
   [[gnu::always_inline]] bool out_of_reach(double length) const {
-    if (jumps_ || !located_->reads.empty() || (stepped_ && some_was_constant())) return false;
+    if (jumps_ || !located_->reads.empty()) return false;
     const double *high = high_.data(), *last = guards_->g.data(), *speed = speed_.data();
-    const double* plain = plain_.data();
+    const double *plain = plain_.data(), *least = least_move_.data();
     for (const std::size_t k : located_->slots) {
       const double side = *plain++, now = side * high[k], sum = now + side * last[k];
-      if (!(now > 0.0 && sum > thresholds::speed_margin * std::abs(high[k] - last[k]) &&
+      const double move = std::abs(high[k] - last[k]);
+      if (!(now > 0.0 && move >= *least++ && sum > thresholds::speed_margin * move &&
             sum > thresholds::speed_margin * (speed[k] * length)))
         return false;
     }
@@ -152,19 +155,11 @@ class Glance : protected Narrower {
   double end_at_ = 0.0;  // where the part of a step that is searched ends
 
  private:
-  /// Whether a guard that may have steps had one value at the begin and at the end of the step. Then
-  /// its speed says nothing.
-  bool some_was_constant() const {
-    return std::ranges::any_of(located_->slots, [&](std::size_t k) {
-      return (*guards_)[k].stepped && high_[k] == guards_->g[k];
-    });
-  }
-
   List<double> plain_;         // plain_side() of each active guard
+  List<double> least_move_;    // above 0 for one that may be constant while the state varies
   List<double> speed_;         // [1/s] recent speed of each guard
   std::int64_t version_ = -1;  // of the records from which limits_ and plain_ were made
   bool jumps_ = false;         // some active guard takes two values only
-  bool stepped_ = false;       // some active guard may be constant while the state varies
 };
 
 }  // namespace saltus
