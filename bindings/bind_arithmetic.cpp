@@ -13,6 +13,7 @@
 #include "saltus/library/lookup_table_1d.hpp"
 #include "saltus/library/lookup_table_2d.hpp"
 #include "saltus/library/lookup_table_nd.hpp"
+#include "saltus/library/matrix_concatenation.hpp"
 #include "saltus/library/matrix_inversion.hpp"
 #include "saltus/library/matrix_multiplication.hpp"
 #include "saltus/library/matrix_transposition.hpp"
@@ -24,6 +25,7 @@
 #include "saltus/library/product_of_elements.hpp"
 #include "saltus/library/quantizer.hpp"
 #include "saltus/library/reciprocal.hpp"
+#include "saltus/library/reshape.hpp"
 #include "saltus/library/saturate.hpp"
 #include "saltus/library/scalar_broadcast.hpp"
 #include "saltus/library/sign.hpp"
@@ -94,6 +96,8 @@ void bind_arithmetic(py::module_& module) {
       }));
   using Rectangle = std::pair<Index, Index>;
   const auto rectangle = [](const Rectangle& of) { return MatrixShape{of.first, of.second}; };
+  py::class_<MatrixConcatenation, System>(module, "MatrixConcatenation")
+      .def(py::init<std::string, int, int>());
   py::class_<MatrixInversion, System>(module, "MatrixInversion")
       .def(py::init<std::string>())
       .def(py::init<std::string, Index>());
@@ -125,6 +129,10 @@ void bind_arithmetic(py::module_& module) {
                                            QuantizerOptions{hysteresis});
       }));
   py::class_<Reciprocal, System>(module, "Reciprocal").def(py::init<std::string>());
+  py::class_<Reshape, System>(module, "Reshape")
+      .def(py::init([](const std::string& name, const Dimensions& shape) {
+        return std::make_unique<Reshape>(name, shape_of(shape, text("block '", name, "': shape")));
+      }));
   py::class_<Saturate, System>(module, "Saturate")
       .def(py::init([](const std::string& name, Handle lower_limit, Handle upper_limit) {
         const Arguments of(name);

@@ -560,6 +560,9 @@ class LookupTable2d(System):
 class LookupTableNd(System):
     def __init__(self, arg0: str, arg1: Sequence[Any], arg2: Any, arg3: str, /) -> None: ...
 
+class MatrixConcatenation(System):
+    def __init__(self, arg0: str, arg1: int, arg2: int, /) -> None: ...
+
 class MatrixInversion(System):
     @overload
     def __init__(self, arg0: str) -> None: ...
@@ -601,6 +604,9 @@ class Quantizer(System):
 
 class Reciprocal(System):
     def __init__(self, arg0: str, /) -> None: ...
+
+class Reshape(System):
+    def __init__(self, arg0: str, arg1: Sequence[int], /) -> None: ...
 
 class Saturate(System):
     def __init__(self, arg0: str, arg1: Any, arg2: Any, /) -> None: ...

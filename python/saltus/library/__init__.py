@@ -42,9 +42,11 @@ from saltus.library.logic import (
 )
 from saltus.library.maps import Exponent, Logarithm, Power, Reciprocal, SquareRoot, Trigonometric
 from saltus.library.matrices import (
+    MatrixConcatenation,
     MatrixInversion,
     MatrixMultiplication,
     MatrixTransposition,
+    Reshape,
 )
 from saltus.library.mechanics import Backlash, MassWithFriction, RigidBody
 from saltus.library.noise import RandomNumber, WhiteNoise
@@ -119,6 +121,7 @@ __all__ = [
     "LookupTable2d",
     "LookupTableNd",
     "MassWithFriction",
+    "MatrixConcatenation",
     "MatrixInversion",
     "MatrixMultiplication",
     "MatrixTransposition",
@@ -139,6 +142,7 @@ __all__ = [
     "Reciprocal",
     "ReduceBlock",
     "Relay",
+    "Reshape",
     "RigidBody",
     "Saturate",
     "Sawtooth",

@@ -9,7 +9,13 @@ from saltus._whole import is_whole
 from saltus.errors import ModelError
 from saltus.library.block import Block
 
-__all__ = ["MatrixInversion", "MatrixMultiplication", "MatrixTransposition"]
+__all__ = [
+    "MatrixConcatenation",
+    "MatrixInversion",
+    "MatrixMultiplication",
+    "MatrixTransposition",
+    "Reshape",
+]
 
 
 def _count(block: str, what: str, given: object) -> int:
@@ -155,3 +161,79 @@ class MatrixInversion(Block, _core.MatrixInversion):
             super().__init__(own)
         else:
             super().__init__(own, _count(own, "rows", rows))
+
+
+class MatrixConcatenation(Block, _core.MatrixConcatenation):
+    """Y = (U_0; U_1; ...), one below the other, or (U_0 U_1 ...), one beside the other.
+
+    Inputs: in_0, in_1, ..., matrices of as many columns along axis 0, of as many rows along axis 1.
+    A vector is a row along axis 0 and a column along axis 1, a number is 1 x 1: so `np.vstack` and
+    `np.column_stack` do. Output: out, a matrix.
+
+    Parameters
+    ----------
+    n_inputs
+        The number of inputs.
+    axis
+        0: the rows of the inputs follow each other. 1: their columns do.
+    name
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
+
+    Raises
+    ------
+    ModelError
+        If `n_inputs` is no whole number above 0, or the axis not 0 or 1; when the diagram is built,
+        if the inputs have different numbers of columns, or rows along axis 1.
+
+    Examples
+    --------
+    >>> from saltus.library import MatrixConcatenation
+    >>> saltus.response(MatrixConcatenation(2), [1.0, 2.0], [3.0, 4.0])
+    array([[1., 2.],
+           [3., 4.]])
+    >>> saltus.response(MatrixConcatenation(2, axis=1), [[1.0, 2.0], [3.0, 4.0]], [5.0, 6.0])
+    array([[1., 2., 5.],
+           [3., 4., 6.]])
+    """
+
+    def __init__(self, n_inputs: int = 2, axis: int = 0, *, name: str | None = None):
+        own = self._named(name)
+        if not is_whole(axis) or axis not in (0, 1):
+            raise ModelError(f"block '{own}': axis: expected 0 or 1, found {axis!r}")
+        super().__init__(own, _count(own, "n_inputs", n_inputs), int(axis))
+
+
+class Reshape(Block, _core.Reshape):
+    """y = the entries of u in another shape, row by row, as `np.reshape(u, shape)` has them.
+
+    Input: in, of any shape of as many entries. Output: out, of the given shape.
+
+    Parameters
+    ----------
+    shape
+        (m, n) for a matrix, n or (n,) for a vector, () for a number.
+    name
+        The name in messages, in contexts and for `diagram[...]`; by default its class and number.
+
+    Raises
+    ------
+    ModelError
+        If the shape is none of these, with whole numbers above 0; when the diagram is built, if the
+        input has another number of entries.
+
+    Examples
+    --------
+    >>> from saltus.library import Reshape
+    >>> saltus.response(Reshape((2, 2)), [1.0, 2.0, 3.0, 4.0])
+    array([[1., 2.],
+           [3., 4.]])
+    """
+
+    def __init__(self, shape: int | Sequence[int], *, name: str | None = None):
+        own = self._named(name)
+        entries = [shape] if is_whole(shape) else shape
+        if not isinstance(entries, (tuple, list)) or len(entries) > 2:
+            raise ModelError(
+                f"block '{own}': shape: expected (m, n), a number of entries or (), found {shape!r}"
+            )
+        super().__init__(own, [_count(own, "entries of shape", one) for one in entries])
