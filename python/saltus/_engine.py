@@ -15,7 +15,7 @@ from saltus.options import SimulatorOptions
 from saltus.ports import core_port
 from saltus.system import OutputPort, System
 
-__all__ = ["PYTHON_ONLY", "core_context", "core_options", "ports_of"]
+__all__ = ["PYTHON_ONLY", "core_context", "core_options", "needs_interpreter", "ports_of"]
 
 PYTHON_ONLY = frozenset({"recorded_signals", "python", "machine_code", "throw", "progress"})
 """options that the engine does not have, or not in this form"""
@@ -46,7 +46,15 @@ def ports_of(signals: Any) -> list[tuple[str, System, int]]:
     return [(name, *core_port(port)) for name, port in (signals or {}).items()]
 
 
-def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
+def needs_interpreter(system: System, options: SimulatorOptions) -> bool:
+    """Whether a run calls a Python function, so that threads would wait for each other."""
+    if options.python != "traced":
+        return bool(system.interpreted_blocks)
+    return any(callback.runs == "called" for callback in system.explain())
+
+
+def core_options(options: SimulatorOptions, system: System | None = None) -> _core.SimulatorOptions:
+    """The options of the engine, for runs of `system` if it is given."""
     core = _core.SimulatorOptions()
     for field in fields(options):
         value = getattr(options, field.name)
@@ -71,6 +79,8 @@ def core_options(options: SimulatorOptions) -> _core.SimulatorOptions:
 
         require_installed()
     core.set_recorded_signals(ports_of(options.recorded_signals))
+    if core.islands and core.island_threads != 1 and isinstance(system, System):
+        core.island_threads = 1 if needs_interpreter(system, options) else core.island_threads
     return core
 
 

@@ -127,6 +127,11 @@ class SimulatorOptions:
     runs as if it were alone, to the bit; see `Results.islands`. A later version may change the
     default
     """
+    island_threads: int = 1
+    """the number of threads on which islands run, 0 for as many as the machine has cores; the
+    results have the same bits. It needs islands=True. Where Python callbacks are called, all
+    islands run on one thread
+    """
     python: str = "traced"
     """'traced' makes expressions of the Python callbacks that allow it, which run without the
     interpreter; 'called' calls them all. See `system.explain()`

@@ -60,6 +60,7 @@ Status IslandRuns::advance_to(double t_end) {
   if (over_) return leave();
   const auto start = Clock::now();
   asked_ = start, under_way_ = true;
+  caller_thread_ = std::this_thread::get_id(), stop_ = false;
   run_all(t_end);
   under_way_ = false;
   merger_.ran(std::chrono::duration<double>(Clock::now() - start).count());
@@ -86,9 +87,7 @@ Status IslandRuns::leave() {
 void IslandRuns::run_all(double t_end) {
   const double begin = time_;
   progress_.begin();
-  for (const std::size_t k : order_) {
-    if (!stopped_) run_one(k, t_end);
-  }
+  t_end = threads() > 1 ? run_side_by_side(t_end) : run_in_turn(t_end);
   if (stopped_) {
     for (const Island& island : all_) t_end = std::min(t_end, island.run->time());
   }
@@ -106,21 +105,36 @@ void IslandRuns::run_all(double t_end) {
   if (ender_) end_with(*ender_);
 }
 
-/// Runs one island to t_end; if it ends earlier, that is the new end of all.
-void IslandRuns::run_one(std::size_t k, double& t_end) {
+/// Runs one island after the other to t_end, or to the end of one before. Returns the end of all.
+double IslandRuns::run_in_turn(double t_end) {
+  for (const std::size_t k : order_) {
+    if (stopped_) break;
+    const Status status = run_one(k, t_end);
+    take_end(k, status, t_end);
+    if (status != Status::reached_end) continue;
+    stopped_ = interrupted_between();
+    if (stopped_) ender_ = k;
+  }
+  return t_end;
+}
+
+/// Runs one island on the calling thread.
+Status IslandRuns::run_one(std::size_t k, double t_end) {
   Run& run = *all_[k].run;
   progress_.start(run);
   const Status status = run.advance_to(t_end);
-  progress_.finish(time_);
+  progress_.stop(), progress_.add(run, time_);
   results_.statistics = progress_.counts();
-  if (status == Status::reached_end) {
-    stopped_ = interrupted_between();
-    if (stopped_) ender_ = k;
-    return;
-  }
-  if (!ender_ || run.time() < t_end || k < *ender_) ender_ = k;
-  t_end = run.time();
-  stopped_ = status == Status::interrupted;
+  return status;
+}
+
+/// An island that ends before the others ends the run.
+void IslandRuns::take_end(std::size_t k, Status status, double& t_end) {
+  if (status == Status::reached_end) return;
+  const double end = all_[k].run->time();
+  if (!ender_ || end < t_end || k < *ender_) ender_ = k;
+  t_end = end;
+  stopped_ = stopped_ || status == Status::interrupted;
 }
 
 /// Runs an island from the start of the run through its earlier pieces to t_end.
@@ -134,14 +148,27 @@ void IslandRuns::run_again(std::size_t k, double t_end) {
 }
 
 /// Whether the user asks the run to stop. An island asks at most every 20 ms of its own run, and
-/// many islands are shorter, so this looks at the clock again.
+/// many islands are shorter, so this looks at the clock again. Only the calling thread asks the user.
 bool IslandRuns::interrupted() {
-  if (again_ || !options_.interrupt) return false;
+  if (again_) return false;
+  if (std::this_thread::get_id() != caller_thread_) return stop_;
+  if (!options_.interrupt) return false;
   const auto now = Clock::now();
   if (now - asked_ < std::chrono::milliseconds(20)) return false;
   asked_ = now;
   results_.statistics = progress_.counts();
-  return options_.interrupt();
+  return asks_to_stop();
+}
+
+/// Asks the user's function. Where it returns true or throws, the islands on other threads stop too.
+bool IslandRuns::asks_to_stop() {
+  try {
+    if (options_.interrupt()) stop_ = true;
+  } catch (...) {
+    stop_ = true;
+    throw;
+  }
+  return stop_;
 }
 
 /// The same between two islands, where no run takes an exception of the user's function.
@@ -162,7 +189,7 @@ double IslandRuns::time() const noexcept {
 void IslandRuns::end_with(std::size_t k) {
   over_ = true;
   const Results& last = all_[k].run->results();
-  if (last.status == Status::reached_end) {  // stopped between two islands
+  if (stopped_) {  // by the user; the island may have run again since
     results_.status = raised_ ? Status::failed : Status::interrupted;
     results_.message = text("t = ", time_, " s: interrupted");
     results_.cause = raised_;

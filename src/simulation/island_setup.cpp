@@ -60,7 +60,7 @@ SimulatorOptions IslandRuns::options_for(std::size_t k, const SimulatorOptions& 
   own.sensitivity = merger_.sensitivity_of(k);
   own.rtol = tolerance_of(options.rtol, *plan_, leaves);
   own.atol = tolerance_of(options.atol, *plan_, leaves);
-  own.islands = false, own.throw_errors = false;
+  own.islands = false, own.island_threads = 1, own.throw_errors = false;
   own.interrupt = [this] { return interrupted(); };
   return own;
 }

@@ -51,6 +51,7 @@ ELSEWHERE = {
     "simulation/detail/poles": "laws/poles_test.cpp",
     "simulation/detail/rows": "laws/rows_test.cpp",
     "simulation/detail/run": "semantics/results_resume_test.cpp",
+    "simulation/detail/side_by_side": "laws/island_threads_test.cpp",
     "simulation/detail/standstill": "unit/evaluate_test.cpp",
     "simulation/detail/one_sided": "laws/sensitivities_test.cpp",
     "simulation/detail/tangent_events": "laws/sensitivities_test.cpp",

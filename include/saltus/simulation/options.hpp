@@ -86,6 +86,10 @@ struct SimulatorOptions {
   /// alone, to the bit. False: all states have one common step. A later version may change the
   /// default.
   bool islands = false;
+  /// The number of threads on which islands run, 0 for as many as the machine has cores. The results
+  /// have the same bits on any number. With more than one, functions of the model are called from
+  /// several threads at once; `interrupt` is called from that of the caller only. It needs `islands`.
+  int island_threads = 1;
 
   /// May give leaves other functions while their plan is made.
   std::shared_ptr<Refinement> refinement = {};

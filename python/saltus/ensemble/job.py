@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from saltus import _core
-from saltus._engine import core_context, core_options
+from saltus._engine import core_context, core_options, needs_interpreter
 from saltus._signals import port_of
 from saltus._status import WELL
 from saltus.callbacks import Callbacks, planned
@@ -45,9 +45,9 @@ class Job:
     @property
     def needs_interpreter(self) -> bool:
         """Whether a run calls a Python function, so that threads would wait for each other."""
-        if not isinstance(self.system, System) or self.options.python != "traced":
-            return not isinstance(self.system, System) or bool(self.system.interpreted_blocks)
-        return any(callback.runs == "called" for callback in self.system.explain())
+        if not isinstance(self.system, System):
+            return True
+        return needs_interpreter(self.system, self.options)
 
     def for_factory(self, names: list[str]) -> list[str]:
         """The varied names that are arguments of the factory."""
@@ -67,7 +67,7 @@ class Job:
         system.
         """
         signals = {name: port_of(system, port) for name, port in self.signals.items()}
-        options = core_options(replace(self.options, recorded_signals=signals))
+        options = core_options(replace(self.options, recorded_signals=signals), system)
         context = self.context or system.create_context(self.span[0])
         begin = core_context(context)
 

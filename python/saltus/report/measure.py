@@ -164,7 +164,9 @@ def _scene(
         signals = {system.output_names[0]: system.output(0)} if system.output_names else {}
     chosen = SimulatorOptions(recorded_signals=signals, **options)
     callbacks = traced_callbacks(system) if chosen.python == "traced" else None
-    return _core.user_scene(system, core_context(context), span, core_options(chosen), callbacks)
+    return _core.user_scene(
+        system, core_context(context), span, core_options(chosen, system), callbacks
+    )
 
 
 class _Known(NamedTuple):

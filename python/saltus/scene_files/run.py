@@ -24,8 +24,9 @@ NAMES = {"method": "ode_solver_method"}
 NUMBERS = (
     "max_major_steps", "max_major_step_length", "min_minor_step_size", "max_minor_step_size",
     "first_step", "zeno_tolerance", "event_scan_points", "max_passes", "event_seed",
+    "island_threads",
 )  # fmt: skip
-COUNTS = ("max_major_steps", "event_scan_points", "max_passes")
+COUNTS = ("max_major_steps", "event_scan_points", "max_passes", "island_threads")
 TRUTHS = (
     "find_sparsity", "save_steps", "event_rows", "dense_output", "record_events", "islands",
 )  # fmt: skip

@@ -88,7 +88,7 @@ class Simulator:
         self.options = checked_options(type(self).__name__, system, options, overrides)
         self.system = system  # the engine refers to it
         self._reporter = reporter_of(self.options.progress)
-        self._options = core_options(self.options)
+        self._options = core_options(self.options, system)
         self._others = functions_of(self.options)
         self._make()
         self._shown: Callable[[], Results | None] = _nothing  # the last results, while they live

@@ -71,7 +71,7 @@ def _kept(system: System, key: Key) -> tuple[_core.Plan, Callbacks] | None:
 
 
 def _made(system: System, options: SimulatorOptions, key: Key | None) -> Prepared:
-    reporter, core = reporter_of(options.progress), core_options(options)
+    reporter, core = reporter_of(options.progress), core_options(options, system)
     if options.python != "traced":
         return Prepared(
             _core.Plan(system, core, None, options.machine_code), None, reporter, options.throw

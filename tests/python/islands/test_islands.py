@@ -1,6 +1,7 @@
 """Islands that step apart, from Python: rows, errors, pieces, pictures, files."""
 
 import pickle
+import threading
 
 import numpy as np
 import pytest
@@ -209,3 +210,42 @@ def test_progress_and_machine_code():
     options = {"progress": seen.append, "machine_code": "never"}
     assert run("one", "two", "three", **options).status == "reached_end"
     assert seen
+
+
+def test_threads_change_no_bit():
+    names = ("one", "two", "three")
+    alone, threads = run(*names), run(*names, island_threads=2)
+    assert np.array_equal(alone.events.times(), threads.events.times())
+    for name in names:
+        assert np.array_equal(alone[name], threads[name])
+        assert np.array_equal(alone.time_of(name), threads.time_of(name))
+    assert alone.context == threads.context
+
+
+def test_called_callbacks_run_on_one_thread():
+    callers = set()
+
+    def rate(t, state):
+        callers.add(threading.get_ident())
+        return [-1.0]
+
+    builder = saltus.DiagramBuilder()
+    for name in ("a", "b", "c"):
+        block = saltus.LeafSystem(name=name)
+        block.declare_continuous_state([1.0], ode=rate)
+        builder.add(block)
+    results = saltus.simulate(builder.build(), (0.0, 1.0), islands=True, island_threads=3)
+    assert len(results.islands) == 3
+    assert callers == {threading.get_ident()}
+
+
+def test_threads_need_islands():
+    with pytest.raises(saltus.ModelError, match="island_threads: expected 1, because islands is"):
+        run("one", "two", islands=False, island_threads=2)
+
+
+def test_progress_on_threads_is_that_of_the_caller():
+    seen = []
+    results = run("one", "two", "three", island_threads=2, progress=lambda p: seen.append(p.time))
+    assert results.status == "reached_end"
+    assert seen[-1] == 2.0

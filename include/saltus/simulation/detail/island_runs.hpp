@@ -1,11 +1,13 @@
 // IslandRuns: the islands of a system as runs of their own. It implements Simulator.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <exception>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -16,10 +18,10 @@
 
 namespace saltus {
 
-/// One island after the other runs to the common end. If an island ends the run earlier, at t*, the
-/// islands that are ahead run again, from the start of the run to t*. A run is deterministic: each
-/// island has the bits of its part run alone to t*. The logs, rows and counts of all islands are put
-/// together when they are asked for.
+/// One island after the other runs to the common end, or several at once on threads. If an island
+/// ends the run earlier, at t*, the islands that are ahead run again, from the start of the run to
+/// t*. A run is deterministic: each island has the bits of its part run alone to t*, on any number
+/// of threads. The logs, rows and counts of all islands are put together when they are asked for.
 class IslandRuns {
  public:
   IslandRuns(std::shared_ptr<const Plan> plan, Islands islands, SimulatorOptions options);
@@ -53,9 +55,14 @@ class IslandRuns {
   Context part_of(const Context& whole, std::size_t k) const;
   void require_ready(double t_end) const;
   void run_all(double t_end);
-  void run_one(std::size_t k, double& t_end);
+  double run_in_turn(double t_end);
+  double run_side_by_side(double t_end);
+  Status run_one(std::size_t k, double t_end);
+  void take_end(std::size_t k, Status status, double& t_end);
   void run_again(std::size_t k, double t_end);
+  std::size_t threads() const;
   bool interrupted();
+  bool asks_to_stop();
   bool interrupted_between();
   void end_with(std::size_t k);
   Status leave();
@@ -74,6 +81,8 @@ class IslandRuns {
   bool over_ = false, under_way_ = false, again_ = false, stopped_ = false;
   std::optional<std::size_t> ender_;  ///< the island that ended the run
   std::exception_ptr raised_;         ///< by `interrupt`, between two islands
+  std::thread::id caller_thread_{};   ///< of `advance_to`, which alone calls `interrupt`
+  std::atomic<bool> stop_{false};     ///< the islands on other threads have to stop
   IslandProgress progress_;
   std::chrono::steady_clock::time_point asked_{};
   mutable Caller caller_{};

@@ -91,6 +91,13 @@ inline const std::tuple option_table{
     Option<bool>{"dense_output", &SimulatorOptions::dense_output},
     Option<bool>{"record_events", &SimulatorOptions::record_events},
     Option<bool>{"islands", &SimulatorOptions::islands},
+    Option{"island_threads", &SimulatorOptions::island_threads,
+           +[](const SimulatorOptions& o) {
+             return o.island_threads < 0
+                        ? Expected("1 or more, or 0 for all cores")
+                        : unless(o.island_threads == 1 || o.islands,
+                                 "1, because islands is false; set islands to true for threads");
+           }},
     Option<std::function<bool()>>{"interrupt", &SimulatorOptions::interrupt},
 };
 
