@@ -12,8 +12,8 @@ namespace saltus {
 Contacts::Contacts(Machine& machine, const SimulatorOptions& options)
     : machine_(&machine), absolute_(machine.plan().nx) {
   for (Index i = 0; i < absolute_.size(); ++i) absolute_[i] = options.atol[i] / options.rtol[i];
-  for (auto* v : {&original_, &begun_, &once_, &twice_, &trial_, &f_, &f1_, &slow_, &stood_,
-                  &later_, &slope_})
+  for (auto* v : {&original_, &before_, &begun_, &once_, &twice_, &trial_, &f_, &f1_, &slow_,
+                  &stood_, &later_, &slope_})
     v->setZero(machine.plan().nx);
   z_.setZero(machine.plan().nz);
   g_.setOnes(machine.plan().look_slots);
@@ -58,7 +58,8 @@ void Contacts::reset(const SurfaceContact& contact, double t, const double* from
 }
 
 /// Writes the fixed point extrapolated from begun_, once_ and twice_ to x. Returns how far the
-/// reset still moved, in units of rounding.
+/// reset still moved, in units of rounding. Two moves that differ by rounding alone have no limit:
+/// a reset that adds the same amount each time has no fixed point.
 double Contacts::extrapolate(const SurfaceContact& contact, double* x) {
   using namespace thresholds;
   double furthest = 0.0;
@@ -66,10 +67,11 @@ double Contacts::extrapolate(const SurfaceContact& contact, double* x) {
     const double first = once_[i] - begun_[i], second = twice_[i] - once_[i];
     const double size = std::max(
         {std::abs(original_[i]), std::abs(begun_[i]), std::abs(once_[i]), std::abs(twice_[i])});
-    furthest = std::max(furthest, std::abs(first) / (fixed_point_roundings * eps * size + 1e-300));
+    const double rounding = fixed_point_roundings * eps * size;
+    furthest = std::max(furthest, std::abs(first) / (rounding + 1e-300));
     const double limit = begun_[i] - first * (first / (second - first));  // a square may underflow
-    const bool told = std::abs(first) > fixed_point_roundings * eps * size && std::isfinite(limit);
-    x[i] = told ? limit : once_[i];
+    const bool told = std::abs(first) > rounding && std::abs(second - first) > 4.0 * eps * size;
+    x[i] = told && std::isfinite(limit) ? limit : once_[i];
   }
   return furthest;
 }
@@ -90,6 +92,22 @@ bool Contacts::settle(const SurfaceContact& contact, double t, double* x) {
   }
   std::copy_n(original_.data(), original_.size(), x);
   return false;
+}
+
+bool Contacts::settle_on_surface(const SurfaceContact& contact, double t, double* x) {
+  if (contact.opaque) return settle(contact, t, x);
+  before_ = VectorView(x, before_.size());
+  const double near = std::max(std::abs(guard(contact, t, x)), contact.error);
+  if (!settle(contact, t, x)) return false;
+  const double there = std::abs(guard(contact, t, x));
+  if (there <= std::max(near, rounding_of_guard(contact, t, x))) return true;
+  std::copy_n(before_.data(), before_.size(), x);
+  return false;
+}
+
+/// The change of the guard by the roundings of a fixed point.
+double Contacts::rounding_of_guard(const SurfaceContact& contact, double t, double* x) {
+  return thresholds::fixed_point_roundings * thresholds::eps * std::sqrt(slope(contact, t, x));
 }
 
 /// The derivatives of the guard by the states that rest, in units of the sizes of these. Returns the
@@ -161,12 +179,11 @@ bool Contacts::follows(const SurfaceContact& contact, double t, const double* x)
   const double later = t + contact.look_ahead, now = guard(contact, t, x);
   machine_->flow(t, x, slow_.data());
   later_ = VectorView(x, slow_.size()) + contact.look_ahead * slow_;
-  const double rounding = thresholds::fixed_point_roundings * thresholds::eps *
-                          std::sqrt(slope(contact, later, later_.data()));
+  const double rounding = rounding_of_guard(contact, later, later_.data());
   const double moved = std::abs(guard(contact, later, later_.data()) - now);
-  return moved <= rounding || (settle(contact, later, later_.data()) &&
-                               std::abs(guard(contact, later, later_.data()) - now) <=
-                                   std::max(rounding, thresholds::follows_to * moved));
+  if (contact.has_place) settle(contact, later, later_.data());
+  return std::abs(guard(contact, later, later_.data()) - now) <=
+         std::max(rounding, contact.has_place ? thresholds::follows_to * moved : 0.0);
 }
 
 double Contacts::lift(const SurfaceContact& contact, double t, const double* x) {
@@ -207,7 +224,7 @@ bool Contacts::moves(const SurfaceContact& contact, double t, const double* x, d
   double d = contact.look_ahead;
   for (int probe = 0; probe < probes && d <= longest; ++probe, d *= probe_growth) {
     stood_ = later_ = VectorView(x, slow_.size()) + d * slow_;
-    if (!settle(contact, t + d, later_.data())) return false;
+    settle_on_surface(contact, t + d, later_.data());
     for (const Index i : contact.states) {
       if (std::abs(later_[i] - stood_[i]) >
           moved_roundings * eps * (std::abs(stood_[i]) + absolute_[i]))
@@ -222,14 +239,14 @@ bool Contacts::moves(const SurfaceContact& contact, double t, const double* x, d
 void Contacts::carry(double t, double* x) {
   for (int sweep = 0; sweep < (present_.size() > 1 ? 2 : 1); ++sweep) {
     for (const SurfaceContact& contact : all()) {
-      if (contact.carried) settle(contact, t, x);
+      if (contact.carried && contact.has_place) settle(contact, t, x);
     }
   }
 }
 
 void Contacts::rates(double t, const double* x, double* xdot) {
   for (const SurfaceContact& contact : all()) {
-    if (!contact.carried) continue;
+    if (!contact.carried || !contact.has_place) continue;
     const double d = contact.look_ahead;
     stood_ = VectorView(x, stood_.size());
     later_ = stood_ + d * VectorView(xdot, stood_.size());

@@ -107,9 +107,12 @@ void ContactGuards::arm_crossing(std::size_t k) {
     arm(*contact, contact_error(flow.rounding, present_->g[k], before, present_->now(k).jump));
 }
 
-/// Begins to watch a relation at rest. The value of an opaque boolean has no meaning at rest.
+/// Begins to watch a relation at rest. The value of an opaque boolean has no meaning at rest. One of
+/// several relations that hold a block may be far from its zero: it is armed on its side already.
 void ContactGuards::arm_relation(std::size_t k) {
   const bool opaque = group_of(k).is_opaque();
+  const bool on_its_side = sign_of(present_->g[k]) == (*guards_)[k].side;
+  if (!opaque && on_its_side && !present_->now(k).fired && contact_of(k) == nullptr) return;
   const SurfaceContact* known = contacts_.on(static_cast<int>(k));
   double error = known ? known->error : 0.0;
   if (!opaque && !(known && known->carried)) {
@@ -148,7 +151,7 @@ bool ContactGuards::place(SurfaceContact& contact) {
   double* x = machine_->x.data();
   contacts_.find_place(contact, t, x);
   const bool placed =
-      transition_->wrote_x(group_of(contact.guard())) && contacts_.settle(contact, t, x);
+      transition_->wrote_x(group_of(contact.guard())) && contacts_.settle_on_surface(contact, t, x);
   present_->outcome.restart = present_->outcome.restart || placed;
   contacts_.choose_look_ahead(contact, t, x, present_->longest);
   return placed;
@@ -161,7 +164,10 @@ bool ContactGuards::follow_surface(SurfaceContact& contact) {
   double* x = machine_->x.data();
   const bool placed = contact.look_ahead == 0.0 && place(contact);
   const bool moves = contact.carried || contacts_.moves(contact, t, x, longest);
-  if (moves) contact.carried = contacts_.settle(contact, t, x) && contacts_.follows(contact, t, x);
+  if (moves) {
+    contact.has_place = contacts_.settle_on_surface(contact, t, x);
+    contact.carried = contacts_.follows(contact, t, x);
+  }
   if (placed) {
     // The reset maps leave the block beside its surface by a rounding, of either sign.
     const double beside = std::abs(contacts_.guard(contact, t, x));

@@ -39,7 +39,7 @@ bool ContactGuards::wake(SurfaceContact& contact) {
         let_go(contact, g * contact.pressed > 0.0 ? contact.pressed : -contact.pressed);
         return true;
       }
-      contact.carried = present_->outcome.restart = true;
+      contact.carried = contact.has_place = present_->outcome.restart = true;
       machine_->guards_at(t, x, present_->g.data());  // the block has been put on its surface
       return false;
     case Waking::stay:

@@ -116,8 +116,8 @@ int Relations::side_at_zero(const GuardGroup& group, std::size_t k, const Relati
 }
 
 /// The side to which the flow takes a relation; the side of its crossing if the flow leads to no
-/// side. If the flow leads back to the side that set off a reset, the blocks of that reset come to
-/// rest.
+/// side. If the flow leads back to the side that set off a reset, and the reset left the relation at
+/// its zero, the blocks of that reset come to rest.
 int Relations::side_by_flow(const GuardGroup& group, std::size_t k, int crossed_to) {
   const auto slot = static_cast<Index>(k);
   const bool opaque = group.is_opaque();
@@ -127,8 +127,10 @@ int Relations::side_by_flow(const GuardGroup& group, std::size_t k, int crossed_
   const auto leads_back = [&] {
     return opaque || flow_->leads_back(group, slot, -crossed_to, transition_->before());
   };
+  const bool at_zero = opaque || now.jumped() || std::abs(present_->g[k]) <= flow.rounding;
   const bool set_off = flow.side == crossed_to && edges_->set_off_by(group.index);
-  const RelationSide then = decide_relation_side(flow.side, crossed_to, set_off, leads_back);
+  const RelationSide then =
+      decide_relation_side(flow.side, crossed_to, set_off, at_zero, leads_back);
   if (!then.rests) return then.side;
   present_->note(k).frozen = true;
   if (holds_->hold_edges(edges_->fired(), group.index)) {

@@ -78,9 +78,10 @@ TEST_CASE("A relation at its zero follows the flow, and rests where the flow lea
   const auto no = [] { return false; };
   const auto unasked = []() -> bool { throw std::logic_error("asked for the flow before"); };
   const int to = GENERATE(-1, 1);
-  CHECK(decide_relation_side(0, to, true, unasked) == RelationSide{to, false});
-  CHECK(decide_relation_side(to, to, true, yes) == RelationSide{to, true});
-  CHECK(decide_relation_side(to, to, true, no) == RelationSide{to, false});
-  CHECK(decide_relation_side(to, to, false, unasked) == RelationSide{to, false});
-  CHECK(decide_relation_side(-to, to, true, unasked) == RelationSide{-to, false});
+  CHECK(decide_relation_side(0, to, true, true, unasked) == RelationSide{to, false});
+  CHECK(decide_relation_side(to, to, true, true, yes) == RelationSide{to, true});
+  CHECK(decide_relation_side(to, to, true, true, no) == RelationSide{to, false});
+  CHECK(decide_relation_side(to, to, true, false, unasked) == RelationSide{to, false});
+  CHECK(decide_relation_side(to, to, false, true, unasked) == RelationSide{to, false});
+  CHECK(decide_relation_side(-to, to, true, true, unasked) == RelationSide{-to, false});
 }

@@ -22,7 +22,8 @@ struct SurfaceContact {
   int slot = -1;     // its guard
   int pressed = -1;  // sign of the guard where the flow presses on the surface
   bool opaque = false;
-  bool carried = false;     // the surface moves, and the blocks move with it
+  bool carried = false;     // the surface or the force moves: the blocks stay on the surface
+  bool has_place = true;    // the reset maps have a fixed point on the surface
   bool lands = false;       // the reset maps leave its place as it is: the surface decides it
   bool pressed_on = false;  // the flow led into the surface when it last led anywhere
   double error = 0.0;       // the guard is at zero within it
@@ -61,12 +62,15 @@ class Contacts final : public Carrier {
   /// and leaves x unchanged. Where a whole range of places is fixed, as by h + |y - h|, the place is
   /// that of the surface.
   bool settle(const SurfaceContact& contact, double t, double* x);
+  /// The same if the fixed point is on the surface, as near as x is. Otherwise the blocks stay where
+  /// they are.
+  bool settle_on_surface(const SurfaceContact& contact, double t, double* x);
   /// Finds out whether the reset maps leave the place of a block close to its surface as it is.
   void find_place(SurfaceContact& contact, double t, const double* x);
   /// The value of its guard.
   double guard(const SurfaceContact& contact, double t, const double* x);
-  /// Whether the reset maps keep the block on its surface while that moves. Their fixed point may be
-  /// elsewhere: a map that halves a state takes it to zero.
+  /// Whether the block is on its surface a look ahead later. The fixed point of its reset maps may be
+  /// elsewhere, as where a map halves a state: then it is on a surface that stays where it is.
   bool follows(const SurfaceContact& contact, double t, const double* x);
   /// How far the free flow from x takes the guard off the surface: 8 g(d/2) - g(d), in which the
   /// third order cancels. A negative lift means that the flow presses on the surface. An opaque
@@ -88,6 +92,7 @@ class Contacts final : public Carrier {
   void reset(const SurfaceContact& contact, double t, const double* from, double* to);
   double extrapolate(const SurfaceContact& contact, double* x);
   double slope(const SurfaceContact& contact, double t, double* x);
+  double rounding_of_guard(const SurfaceContact& contact, double t, double* x);
   void land(const SurfaceContact& contact, double t, double* x);
   void free(const SurfaceContact& contact, bool yes);
   double guard_after(const SurfaceContact& contact, double t, const double* x, double d);
@@ -96,8 +101,8 @@ class Contacts final : public Carrier {
   Eigen::VectorXd absolute_;      // a state below this size counts as zero
   List<SurfaceContact> of_slot_;  // made once, so that a hold allocates nothing
   std::vector<int> present_;      // slots
-  Eigen::VectorXd original_, begun_, once_, twice_, trial_, f_, f1_, slow_, stood_, later_, slope_,
-      z_, g_;
+  Eigen::VectorXd original_, before_, begun_, once_, twice_, trial_, f_, f1_, slow_, stood_, later_,
+      slope_, z_, g_;
 };
 
 }  // namespace saltus

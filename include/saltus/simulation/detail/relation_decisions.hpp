@@ -62,12 +62,14 @@ int decide_at_zero(const RelationFacts& relation, int side, bool true_at_zero, c
 
 /// The side of a relation at its zero that the flow decides, and whether its blocks come to rest.
 ///
-///     flow to                          set off a reset    leads straight back    side           rests
-///     none                             -                  -                      the crossing's no
-///     the crossing's side              yes                yes                    the flow's     yes
-///     otherwise                        -                  -                      the flow's     no
+///     flow to              set off a reset   left at its zero   leads straight back   side           rests
+///     none                 -                 -                  -                     the crossing's no
+///     the crossing's side  yes               yes                yes                   the flow's     yes
+///     otherwise            -                 -                  -                     the flow's     no
 ///
-/// "Leads straight back" is asked only where the flow leads to the side that set off the reset.
+/// "Leads straight back" is asked only where the flow leads to the side that set off the reset. A
+/// reset that leaves the relation far from its zero has put it on that side: no edge follows, so
+/// nothing comes to rest.
 struct RelationSide {
   int side = 0;
   bool rests = false;
@@ -75,10 +77,10 @@ struct RelationSide {
 };
 
 template <class LeadsBack>
-RelationSide decide_relation_side(int flow_to, int crossed_to, bool set_off,
+RelationSide decide_relation_side(int flow_to, int crossed_to, bool set_off, bool at_zero,
                                   const LeadsBack& leads_back) {
   if (flow_to == 0) return {crossed_to, false};
-  return {flow_to, flow_to == crossed_to && set_off && leads_back()};
+  return {flow_to, flow_to == crossed_to && set_off && at_zero && leads_back()};
 }
 
 /// Decides how a relation is armed when integration continues.
