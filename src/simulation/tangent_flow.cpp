@@ -27,6 +27,12 @@ bool read_time(const tape::Graph& graph, const std::vector<tape::Node>& nodes) {
 
 }  // namespace
 
+void fix_time(TangentProbe& probe, double t, const double* x, TangentColumns& at) {
+  if (at.t.isZero(0.0)) return;
+  at.x -= probe.flow(t, x) * at.t;
+  at.t.setZero();
+}
+
 TangentFlow::TangentFlow(const Machine& machine, TangentProbe& probe)
     : machine_(&machine), probe_(&probe), variables_(machine) {
   make();

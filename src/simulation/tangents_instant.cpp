@@ -26,7 +26,7 @@ void Tangents::open(const Present& present, const std::vector<int>& due) {
   t_ = present.t, phase_ = Phase::opened;
   const double* x = machine_->x.data();
   before_ = columns_;
-  fix_time(t_, x, before_);
+  fix_time(probe_, t_, x, before_);
   one_sided_.open(*machine_, before_);
   probe_.note(x, 0.0);
   const TangentColumns until = columns_;
@@ -119,11 +119,12 @@ void Tangents::close() {
   if (machine_->carries())
     for (Index k = 0; k < size(); ++k) lose(k, "", "a block is carried by a moving surface");
   TangentColumns fixed = columns_;
-  fix_time(t_, machine_->x.data(), fixed);
+  fix_time(probe_, t_, machine_->x.data(), fixed);
   one_sided_.judge(t_, *machine_, columns_, fixed, cause());
   if (!flow_.autonomous()) columns_ = std::move(fixed);
   phase_ = Phase::between;
   variation_->forget();
+  if (options_->dense_output) results_->sensitivities.trajectory.instant(probe_.sizes());
 }
 
 /// A guard that fires without a root was at zero already, where the run began or where an effect put

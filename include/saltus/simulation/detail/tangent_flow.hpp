@@ -12,30 +12,15 @@
 
 namespace saltus {
 
-/// The derivatives by the chosen parameters: a column for each of them. They are those at a time that
-/// moves by `t`: zero for a fixed time, dtau for the instant at tau, or for a fixed time after it.
-struct TangentColumns {
-  Eigen::MatrixXd x, z, y;  ///< of the states, the discrete states and the signals
-  Eigen::RowVectorXd t;
-  std::vector<Index> parameters;  ///< the entry of p that each column is of, or -1
-  Index size() const { return static_cast<Index>(parameters.size()); }
-  /// Whether a parameter may move the state, or the flow at the state.
-  bool matters(Index k) const {
-    return nth(parameters, k) >= 0 || !x.col(k).isZero(0.0) || !z.col(k).isZero(0.0) ||
-           !y.col(k).isZero(0.0);
-  }
-  /// One of them as a direction.
-  TangentDirection column(Index k) const {
-    return {t[k], x.col(k).data(), z.col(k).data(), y.col(k).data(), nth(parameters, k)};
-  }
-};
-
 /// The derivatives of one guard.
 struct GuardTangent {
   Eigen::VectorXd by_state;    ///< dg/dx
   double by_time = 0.0;        ///< dg/dt
   Eigen::RowVectorXd columns;  ///< dg of each column
 };
+
+/// Turns derivatives at a moving time into those at a fixed time.
+void fix_time(TangentProbe& probe, double t, const double* x, TangentColumns& at);
 
 /// Where all functions of the flow are formulas or traced, its derivatives are exact: expressions
 /// of the plan's graph. Where one of them is called, they are central differences of the whole flow.
