@@ -65,6 +65,26 @@ VectorFunction PythonLeaf::vector_function(int k) const {
   return [this, k](const At& at, VectorRef out) { locked([&] { fill(k, at, out); }); };
 }
 
+DerivativesFunction PythonLeaf::derivatives_function(int k) const {
+  return [this, k, columns = vector_function(k)](const At& at, Derivatives& out) {
+    std::vector<MatrixRef> blocks{out.by_continuous_state(), out.by_discrete_state(),
+                                  out.by_parameters()};
+    for (int i = 0; i < at.u.size(); ++i) {
+      const InputList& inputs = function(k).inputs;
+      if (!inputs || std::ranges::find(*inputs, i) != inputs->end())
+        blocks.push_back(out.by_input(i));
+    }
+    blocks.emplace_back(out.by_time().data(), out.rows(), 1);
+    Index size = 0;
+    for (const MatrixRef& block : blocks) size += block.size();
+    Eigen::VectorXd values(size);
+    columns(*this, at, VectorRef(values.data(), size));
+    const double* from = values.data();
+    for (MatrixRef& block : blocks)
+      std::copy_n(from, block.size(), block.data()), from += block.size();
+  };
+}
+
 /// Python and C store a matrix row by row.
 MatrixFunction PythonLeaf::matrix_function(int k) const {
   return [this, k, rows = vector_function(k)](const At& at, MatrixRef out) {

@@ -1092,6 +1092,9 @@ class Traces:
 
 def add_invariant(arg0: Scene, arg1: str, arg2: Any, /) -> None: ...
 def called_functions() -> dict[str, Any]: ...
+def check_derivatives(
+    arg0: AnySystem, arg1: Context, arg2: float, /
+) -> list[tuple[str, str, int, float, float]]: ...
 def context_from_dict(system: AnySystem, data: dict[str, Any]) -> Context:
     """
     The context of `system` that Context.to_dict gave. Raises ModelError for other data.

@@ -122,6 +122,7 @@ void Tangents::solve(double from, double to, Integration& integration) {
   const bool cut =
       to - from <= least_step * thresholds::eps * std::max(std::abs(from), std::abs(to));
   probe_.note(integration.state().data(), cut ? 0.0 : to - from);
+  flow_.forget_obstacle();
   Eigen::VectorXd x(machine_->plan().nx);
   const auto equation = [&](double t, Eigen::MatrixXd& a, Eigen::MatrixXd& b) {
     if (t < to)
@@ -134,7 +135,7 @@ void Tangents::solve(double from, double to, Integration& integration) {
   const double middle = from < joint && joint < to ? joint : from;
   variation_->advance(from, middle, equation, columns_.x);
   variation_->advance(middle, to, equation, columns_.x);
-  gaps_.lose_not_finite(t_, probe_.obstacle());
+  gaps_.lose_not_finite(t_, flow_.obstacle());
   look_for_jump(from, to, [&](double t) {
     if (t < to)
       integration.interpolate(t, x.data());

@@ -10,7 +10,7 @@ using namespace saltus;
 using namespace support;
 using Catch::Matchers::WithinAbs;
 
-namespace dense_sensitivities_test {
+namespace {
 
 const std::vector<std::string> by = {"g", "floor", "x[0]"};
 
@@ -58,9 +58,7 @@ double worst(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).cwiseAbs().maxCoeff();
 }
 
-}  // namespace dense_sensitivities_test
-
-using namespace dense_sensitivities_test;
+}  // namespace
 
 TEST_CASE("the derivatives of a ball between its rows and at an impact", "[dense][sensitivity]") {
   const auto method = GENERATE(Method::automatic, Method::dopri5, Method::dop853, Method::adams,

@@ -84,6 +84,8 @@ class Tangents {
   std::string cause() const { return cause_.value_or(""); }
   void begin_signals(const Context& start);
   void clear_truths();
+  void call_declared(const Transition::Call& call, const DerivativesFunction& derivatives,
+                     const double* x_next, const double* z_next, int mode);
   void merge(const MovedTime& moved, bool first);
   /// Dense output begins here.
   void open_trajectory();
