@@ -1,4 +1,6 @@
 // The functions of a Python block, as the engine calls them.
+#include <numeric>
+
 #include "python_leaf.hpp"
 
 #include "interpreter.hpp"
@@ -69,11 +71,10 @@ DerivativesFunction PythonLeaf::derivatives_function(int k) const {
   return [this, k, columns = vector_function(k)](const At& at, Derivatives& out) {
     std::vector<MatrixRef> blocks{out.by_continuous_state(), out.by_discrete_state(),
                                   out.by_parameters()};
-    for (int i = 0; i < at.u.size(); ++i) {
-      const InputList& inputs = function(k).inputs;
-      if (!inputs || std::ranges::find(*inputs, i) != inputs->end())
-        blocks.push_back(out.by_input(i));
-    }
+    // A control signal of a part is none of the inputs that the block declared.
+    std::vector<int> every(declarations().inputs.size());
+    std::iota(every.begin(), every.end(), 0);
+    for (const int i : function(k).inputs.value_or(every)) blocks.push_back(out.by_input(i));
     blocks.emplace_back(out.by_time().data(), out.rows(), 1);
     Index size = 0;
     for (const MatrixRef& block : blocks) size += block.size();

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import saltus
-from saltus.library import Sine
+from saltus.library import Constant, EnabledSubsystem, Pulse, Sine
 
 K, FLOOR, GAIN = 0.5, 0.7, 0.25
 NAMES = ["k", "floor", "gain", "x[0]"]
@@ -161,6 +161,47 @@ def test_inputs_and_vector_parameters_of_a_diagram():
     np.testing.assert_allclose(found[:, 1], by_a / (2 * h), atol=1e-6)
     np.testing.assert_allclose(found[:, 3], [math.exp(-2.0), 0.0], atol=1e-9)
     assert saltus.check_derivatives(system, system.create_context().with_time(0.3)) == ()
+
+
+class Pair(saltus.LeafSystem):
+    """x' = a v - u x of the inputs u and v, which its functions take in the other order."""
+
+    def __init__(self, declares):
+        super().__init__(name="pair")
+        self.declare_dynamic_parameter("a", 1.5)
+        self.declare_input_port("u", shape=())
+        self.declare_input_port("v", shape=2)
+        self.declare_continuous_state(
+            [1.0],
+            ode=lambda t, s, v, u, a: [a * float(v[1]) - float(u) * float(s.continuous_state[0])],
+            derivatives=self.of_ode if declares else None,
+            requires_inputs=[1, 0],
+        )
+        self.declare_continuous_state_output("x")
+
+    def of_ode(self, time, state, v, u, a):
+        return {"continuous_state": -u, "u": -state.continuous_state, "v": [0.0, a], "a": v[1]}
+
+
+@pytest.mark.parametrize("enabled", [False, True])
+def test_named_inputs_and_a_part_that_is_executed_at_times(enabled):
+    def derivatives(declares):
+        builder = saltus.DiagramBuilder()
+        pair = Pair(declares)
+        part = builder.add(EnabledSubsystem(pair, name="part") if enabled else pair)
+        u, v = builder.add(Sine(frequency=2.0, name="u"), Constant([3.0, 4.0], name="v"))
+        builder.connect(u.output(), part.input("u"))
+        builder.connect(v.output(), part.input("v"))
+        if enabled:
+            pulse = builder.add(Pulse(period=1.0, name="pulse"))
+            builder.connect(pulse.output(), part.input("enable"))
+        names = ["u.frequency", "v.value", "part.pair.a" if enabled else "pair.a"]
+        run = saltus.simulate(builder.build(), (0.0, 1.8), sensitivity=names, python="called", **TIGHT)
+        return run.sensitivities.continuous_state
+
+    # Differences of smooth functions have errors of 1e-10 of values of some 10.
+    np.testing.assert_allclose(derivatives(True), derivatives(False), rtol=1e-7, atol=1e-8)
+    assert np.abs(derivatives(True)[0, [0, 2, 3]]).min() > 1e-3
 
 
 def test_linearize_takes_them():
