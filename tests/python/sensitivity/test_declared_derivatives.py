@@ -163,6 +163,53 @@ def test_inputs_and_vector_parameters_of_a_diagram():
     assert saltus.check_derivatives(system, system.create_context().with_time(0.3)) == ()
 
 
+class Ramp(saltus.LeafSystem):
+    """x' = 1 to the second of two guards, x - 2 and x - c - t / 2, which counts in z and doubles x.
+
+    From x0 = 0 it is at tau = 2 c, and then x = 4 c + (t - tau) = 2 c + t, z = tau.
+    """
+
+    def __init__(self, declares):
+        super().__init__(name="ramp")
+        self.declare_dynamic_parameter("c", 0.3)
+        self.declare_continuous_state(
+            [0.0], ode=lambda t, s, c: [1.0], derivatives=lambda *a, **b: {}
+        )
+        self.declare_discrete_state([0.0])
+        self.declare_zero_crossing(
+            lambda t, s, c: [s.continuous_state[0] - 2.0, s.continuous_state[0] - c - 0.5 * t],
+            self.reset,
+            name="two",
+            size=2,
+            guard_derivatives=self.of_guard if declares else None,
+            reset_derivatives=self.of_reset if declares else None,
+        )
+
+    def of_guard(self, time, state, *, c):
+        return {"continuous_state": [1.0, 1.0], "c": [0.0, -1.0], "time": [0.0, -0.5]}
+
+    def reset(self, time, state, *, c):
+        return state.with_continuous_state([2.0 * state.continuous_state[0]]).with_discrete_state(
+            [time]
+        )
+
+    def of_reset(self, time, state, *, c):
+        return {"continuous_state": [2.0, 0.0], "time": [0.0, 1.0]}
+
+
+@pytest.mark.parametrize("declares", [False, True])
+def test_a_guard_and_a_reset_map_that_read_the_time(declares):
+    run = saltus.simulate(
+        Ramp(declares), (0.0, 0.9), sensitivity=["c", "x[0]"], python="called", **TIGHT
+    )
+    assert run.events.times("two") == pytest.approx([0.6])
+    # x0 moves tau by -2 and the state before by 1: x = 2 (x0 + tau) + t - tau.
+    np.testing.assert_allclose(run.events.dt_dp("two"), [[2.0, -2.0]], atol=1e-9)
+    np.testing.assert_allclose(run.sensitivities.continuous_state, [[2.0, 0.0]], atol=1e-9)
+    np.testing.assert_allclose(run.sensitivities.discrete_state, [[2.0, -2.0]], atol=1e-9)
+    assert saltus.check_derivatives(Ramp(declares)) == ()
+
+
 class Pair(saltus.LeafSystem):
     """x' = a v - u x of the inputs u and v, which its functions take in the other order."""
 
@@ -196,7 +243,9 @@ def test_named_inputs_and_a_part_that_is_executed_at_times(enabled):
             pulse = builder.add(Pulse(period=1.0, name="pulse"))
             builder.connect(pulse.output(), part.input("enable"))
         names = ["u.frequency", "v.value", "part.pair.a" if enabled else "pair.a"]
-        run = saltus.simulate(builder.build(), (0.0, 1.8), sensitivity=names, python="called", **TIGHT)
+        run = saltus.simulate(
+            builder.build(), (0.0, 1.8), sensitivity=names, python="called", **TIGHT
+        )
         return run.sensitivities.continuous_state
 
     # Differences of smooth functions have errors of 1e-10 of values of some 10.
