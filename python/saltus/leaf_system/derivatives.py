@@ -82,4 +82,5 @@ def _block(value: Any, rows: int, width: int, place: str) -> np.ndarray:
         (math.prod(array.shape[:i]), math.prod(array.shape[i:])) == (rows, width) for i in splits
     ):
         raise ModelError(f"{place}: expected shape {(rows, width)}, found {array.shape}")
-    return array.reshape(rows, width).T.ravel()
+    columns: np.ndarray = array.reshape(rows, width).T.ravel()
+    return columns

@@ -7,8 +7,8 @@ import pickle
 import numpy as np
 import pytest
 import saltus
-from scenes_with_derivatives import METHODS, Throw
 from saltus.library import Integrator, Sine
+from scenes_with_derivatives import METHODS, Throw
 
 TIGHT = {"rtol": 1e-10, "atol": 1e-12, "dense_output": True}
 TIMES = np.linspace(0.0, 3.0, 41)
@@ -141,7 +141,7 @@ def test_at_a_row_they_are_those_of_the_row(method):
     for i, t in enumerate(run.time):
         before = i + 1 < len(run.time) and run.time[i + 1] == t
         found = run.sensitivities(t, side="left" if before else "right")
-        # x(t) of dense output differs from that of a row inside a step by some eps, and with it f(x).
+        # Inside a step x(t) of dense output differs from that of a row by some eps, and so does f.
         np.testing.assert_allclose(found["state"], rows[i], rtol=1e-13, atol=1e-13)
         np.testing.assert_array_equal(found["state"], found.continuous_state)
     np.testing.assert_allclose(
