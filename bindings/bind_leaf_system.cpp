@@ -45,7 +45,8 @@ using Places = std::vector<std::pair<Index, Index>>;
 void declare_continuous_state(py::handle self, py::handle initial, py::object ode,
                               const InputList& inputs, py::object jacobian,
                               const std::optional<Places>& sparsity, py::object sparse_jacobian,
-                              bool formula, std::vector<std::string> names) {
+                              bool formula, std::vector<std::string> names,
+                              py::object derivatives) {
   PythonLeaf& leaf = leaf_of(self);
   const Array values = to_array(initial, text("block '", leaf.name(), "': continuous state"));
   ContinuousState state{.initial = as_vector(values), .names = std::move(names), .inputs = inputs};
@@ -66,6 +67,10 @@ void declare_continuous_state(py::handle self, py::handle initial, py::object od
         leaf.add(self, std::move(sparse_jacobian),
                  {.inputs = inputs, .what = "sparse_jacobian", .role = Role::sparse_jacobian}));
   }
+  if (!derivatives.is_none())
+    state.derivatives = leaf.derivatives_function(
+        leaf.add(self, std::move(derivatives),
+                 {.inputs = inputs, .what = "derivatives of ode", .role = Role::derivatives}));
   leaf.declare_continuous_state(std::move(state));
   leaf.set_state_dimensions(dimensions_of(values));
 }
@@ -136,12 +141,18 @@ std::shared_ptr<const LeafSystem> sampler_of(const std::string& output,
 int declare_output_port(py::handle self, py::object function, std::string name,
                         const InputList& inputs, const std::optional<Dimensions>& shape,
                         std::optional<bool> boolean, const std::vector<std::string>& reads,
-                        Convention convention, bool formula, const std::optional<Ticks>& ticks) {
+                        Convention convention, bool formula, const std::optional<Ticks>& ticks,
+                        py::object derivatives) {
   PythonLeaf& leaf = leaf_of(self);
   if (name.empty()) name = text("out_", leaf.output_names().size());
   const std::string what = text("output '", name, "'");
   const Reads all = reads_of(leaf, what, reads);
   const auto sampler = sampler_of(name, ticks);
+  DerivativesFunction declared;
+  if (!derivatives.is_none())
+    declared = leaf.derivatives_function(
+        leaf.add(self, std::move(derivatives),
+                 {.inputs = inputs, .what = "derivatives of " + what, .role = Role::derivatives}));
   return leaf.add_output(std::move(name),
                          leaf.add(self, std::move(function),
                                   {.convention = convention,
@@ -151,7 +162,7 @@ int declare_output_port(py::handle self, py::object function, std::string name,
                                    .formula = formula,
                                    .index = count_of(leaf.declarations().outputs)}),
                          shape_from(shape, text("block '", leaf.name(), "': ", what)), boolean, all,
-                         sampler);
+                         sampler, std::move(declared));
 }
 
 /// A state without a copy and without a call.

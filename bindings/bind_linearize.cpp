@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "numbers.hpp"
+#include "saltus/simulation/check_derivatives.hpp"
 #include "saltus/simulation/linearize.hpp"
 #include "trace_pass.hpp"
 
@@ -78,6 +79,13 @@ void bind_linearize(py::module_& module) {
                              })
       .def("method", &Linearization::method);
 
+  module.def("check_derivatives",
+             [](const System& system, const Context& context, double tolerance) {
+               std::vector<std::tuple<std::string, std::string, Index, double, double>> all;
+               for (const WrongDerivative& one : check_derivatives(system, context, tolerance))
+                 all.emplace_back(one.function, one.by, one.row, one.declared, one.difference);
+               return all;
+             });
   py::class_<Linearizer>(module, "Linearizer").def(py::init(&made)).def("at", &Linearizer::at);
 }
 

@@ -71,6 +71,36 @@ py::tuple at(const SharedRecord& results, const std::vector<double>& times, bool
   return py::make_tuple(py::array_t<double>({n, width}, states.data()), outputs);
 }
 
+/// The derivatives of these values at each of `times`, with the parameter as their last axis.
+py::tuple sensitivities_at(const SharedRecord& results, const std::vector<double>& times,
+                           bool left) {
+  std::vector<double> states;
+  std::vector<std::vector<double>> signals(results->signals.size());
+  {
+    const Unlocked unlock;
+    DenseSensitivities dense(results->trajectory, results->sensitivities);
+    for (const double t : times) {
+      dense.move_to(t, left ? Side::left : Side::right);
+      const auto append = [](std::vector<double>& to, const Eigen::MatrixXd& values) {
+        for (const auto& row : values.rowwise()) to.insert(to.end(), row.begin(), row.end());
+      };
+      append(states, dense.state());
+      for (std::size_t i = 0; i < signals.size(); ++i) append(signals[i], dense.signal(i));
+    }
+  }
+  const auto n = static_cast<py::ssize_t>(times.size());
+  const auto m = static_cast<py::ssize_t>(results->sensitivities.size());
+  py::dict outputs;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    Dimensions dimensions = dimensions_of(results->signals[i].shape, {n});
+    dimensions.push_back(m);
+    outputs[py::str(results->signals[i].name)] =
+        py::array_t<double>(std::move(dimensions), signals[i].data());
+  }
+  const py::ssize_t width = results->trajectory.plan()->nx;
+  return py::make_tuple(py::array_t<double>({n, width, m}, states.data()), outputs);
+}
+
 py::array copy_of(std::span<const double> values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
@@ -214,6 +244,7 @@ void bind_results(py::module_& module) {
              return out.str();
            })
       .def("at", &at)
+      .def("sensitivities_at", &sensitivities_at)
       .def("event", &event)
       .def("event_times", &event_times);
 }

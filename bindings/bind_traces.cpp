@@ -18,7 +18,7 @@ using tape::Tape;
 
 constexpr std::array roles{"ode",        "jacobian",  "sparse_jacobian", "output",
                            "guard",      "reset_map", "update",          "relation",
-                           "edge_reset", "delay",     "priority"};
+                           "edge_reset", "delay",     "priority",        "derivatives"};
 
 py::tuple as_tuple(const Dimensions& dimensions) { return py::tuple(py::cast(dimensions)); }
 

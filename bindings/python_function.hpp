@@ -33,8 +33,9 @@ enum class Role {
   update,
   relation,
   edge_reset,
-  delay,    // of a queued zero crossing
-  priority  // likewise
+  delay,       // of a queued zero crossing
+  priority,    // likewise
+  derivatives  // of another function
 };
 
 /// Whether the sign of its values says on which side of an event the block is.

@@ -1,4 +1,6 @@
 // The functions of a Python block, as the engine calls them.
+#include <numeric>
+
 #include "python_leaf.hpp"
 
 #include "interpreter.hpp"
@@ -63,6 +65,25 @@ VectorFunction PythonLeaf::vector_function(int k) const {
     return [this, k](const At& at, VectorRef out) { run_compiled(function(k), at, out.data()); };
   }
   return [this, k](const At& at, VectorRef out) { locked([&] { fill(k, at, out); }); };
+}
+
+DerivativesFunction PythonLeaf::derivatives_function(int k) const {
+  return [this, k, columns = vector_function(k)](const At& at, Derivatives& out) {
+    std::vector<MatrixRef> blocks{out.by_continuous_state(), out.by_discrete_state(),
+                                  out.by_parameters()};
+    // A control signal of a part is none of the inputs that the block declared.
+    std::vector<int> every(declarations().inputs.size());
+    std::iota(every.begin(), every.end(), 0);
+    for (const int i : function(k).inputs.value_or(every)) blocks.push_back(out.by_input(i));
+    blocks.emplace_back(out.by_time().data(), out.rows(), 1);
+    Index size = 0;
+    for (const MatrixRef& block : blocks) size += block.size();
+    Eigen::VectorXd values(size);
+    columns(*this, at, VectorRef(values.data(), size));
+    const double* from = values.data();
+    for (MatrixRef& block : blocks)
+      std::copy_n(from, block.size(), block.data()), from += block.size();
+  };
 }
 
 /// Python and C store a matrix row by row.

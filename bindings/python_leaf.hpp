@@ -64,7 +64,7 @@ class PythonLeaf final : public LeafSystem {
   /// initial values of the block and inputs at zero.
   int add_output(std::string name, int function, std::optional<Shape> shape,
                  std::optional<bool> boolean, Reads reads,
-                 std::shared_ptr<const LeafSystem> sampler);
+                 std::shared_ptr<const LeafSystem> sampler, DerivativesFunction derivatives = {});
 
   /// Adds a function of `self`, the Python object of this block, or a compiled one. Returns its
   /// number.
@@ -72,6 +72,8 @@ class PythonLeaf final : public LeafSystem {
   VectorFunction vector_function(int k) const;
   MatrixFunction matrix_function(int k) const;
   ResetMap reset_map(int k) const;
+  /// Of a function that saltus.derivatives made: it returns columns for its own inputs only.
+  DerivativesFunction derivatives_function(int k) const;
   const std::vector<Function>& functions() const { return functions_; }
   const Function& function(int k) const { return functions_[k]; }
   /// A parameter called `out` is a parameter, not an array to fill.

@@ -9,7 +9,8 @@ namespace saltus::python {
 
 int PythonLeaf::add_output(std::string port, int function, std::optional<Shape> shape,
                            std::optional<bool> boolean, Reads reads,
-                           std::shared_ptr<const LeafSystem> sampler) {
+                           std::shared_ptr<const LeafSystem> sampler,
+                           DerivativesFunction derivatives) {
   const InputList& inputs = this->function(function).inputs;
   require_shape(function, shape);
   if (shape) functions_[function].columns = shape->columns;
@@ -22,6 +23,7 @@ int PythonLeaf::add_output(std::string port, int function, std::optional<Shape> 
        .reads = reads,
        .inputs = inputs,
        .boolean = boolean.value_or(false),
+       .derivatives = std::move(derivatives),
        .sampler = std::move(sampler)});
   const bool callable = !this->function(function).compiled && !this->function(function).in_place;
   if (callable && (!shape || !boolean))

@@ -4,6 +4,7 @@
 
 #include "saltus/library/library.hpp"
 #include "saltus/model/diagram_builder.hpp"
+#include "saltus/simulation/check_derivatives.hpp"
 #include "saltus/simulation/evaluate.hpp"
 #include "saltus/simulation/linearize.hpp"
 #include "saltus/simulation/outcomes.hpp"

@@ -32,6 +32,7 @@ from saltus.system import InputPort, OutputPort, System
 
 if TYPE_CHECKING:
     from saltus import drawings as drawings
+    from saltus.derivative_checks import WrongDerivative, check_derivatives
     from saltus.differentiable import RunValues
     from saltus.differentiable.jax_function import jax_function as jax_function
     from saltus.differentiable.torch_function import torch_function as torch_function
@@ -87,7 +88,9 @@ __all__ = [
     "System",
     "Values",
     "WorkPrecision",
+    "WrongDerivative",
     "__version__",
+    "check_derivatives",
     "compiled",
     "drawings",
     "equilibria",
@@ -124,6 +127,7 @@ _LATER = {
     ),
     **dict.fromkeys(("Equilibria", "OperatingPoint", "equilibria", "trim"), "operating"),
     **dict.fromkeys(("PeriodMap", "PeriodicOrbit", "period_map", "periodic_orbit"), "orbits"),
+    **dict.fromkeys(("WrongDerivative", "check_derivatives"), "derivative_checks"),
     "drawings": "drawings",
     "plot_sweep": "ensemble.heat_map",
     "view": "viewing",

@@ -95,6 +95,7 @@ void ControlledLeaf::gate_controls() {
     OutputDeclaration& output = declared_.outputs[i];
     output.calc = zero_unless(system_, output.calc, control_);
     output.formula = zero_unless(output.formula, output.calc, control_, 1);
+    output.derivatives = zero_unless(system_, output.derivatives, control_);
     output.inputs =
         with_control(has(output.reads, Reads::inputs) ? output.inputs : std::vector<int>());
     output.reads = output.reads | Reads::inputs;
@@ -112,6 +113,7 @@ void ControlledLeaf::rest_while_false() {
   state.ode.formula = of_ode;
   state.jacobian = zero_unless(system_, state.jacobian, control_);
   state.sparse_jacobian = zero_unless(system_, state.sparse_jacobian, control_);
+  state.derivatives = zero_unless(system_, state.derivatives, control_);
   state.inputs = with_control(has(state.reads, Reads::inputs) ? state.inputs : std::vector<int>());
   state.reads = state.reads | Reads::inputs;
   if (!state.entries) return;

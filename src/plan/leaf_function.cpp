@@ -13,15 +13,16 @@ namespace {
 
 using detail::Expressions, detail::read_inputs, detail::append;
 
-/// The entries of nodes, and those of the leaf itself. A truth is held, and a discrete state too.
+/// The entries of nodes, and those of the leaf itself.
 std::vector<ReadValue> reads_of(const Plan& plan, int leaf, const std::vector<int>& nodes) {
   std::vector<ReadValue> all;
   const PlanLeaf& of = plan.leaf(leaf);
   for (Index i = 0; i < of.nx; ++i) all.push_back({Space::x, of.x + i});
+  for (Index i = 0; i < of.nz; ++i) all.push_back({Space::z, of.z + i});
   for (Index i = 0; i < of.np; ++i) all.push_back({Space::p, of.p + i});
   for (const int i : nodes) {
     const Node& node = plan.node(i);
-    if (node.relation || node.boolean || node.place.space == Space::z) continue;
+    if (node.relation || node.boolean) continue;
     for (Index k = 0; k < node.place.size; ++k)
       all.push_back({node.place.space, node.place.offset + k});
   }
@@ -32,6 +33,7 @@ std::vector<ReadValue> reads_of(const Plan& plan, int leaf, const std::vector<in
 
 tape::Node variable(tape::Graph& graph, const ReadValue& read) {
   if (read.space == Space::x) return graph.continuous_state(read.index);
+  if (read.space == Space::z) return graph.input(detail::Expressions::input_of_z, read.index);
   return read.space == Space::p ? graph.parameter(read.index) : graph.discrete_state(read.index);
 }
 
@@ -152,7 +154,8 @@ LeafFunction function_of_node(const Plan& plan, int number) {
               {.name = text("output '", plan.name_of(node), "'"),
                .leaf = node.leaf,
                .size = node.place.size,
-               .call = &output.calc},
+               .call = &output.calc,
+               .derivatives = &output.derivatives},
               node.needs, output.formula);
 }
 
@@ -165,7 +168,9 @@ LeafFunction function_of_rates(const Plan& plan, int leaf) {
               {.name = text("the derivative of block '", of.path, "'"),
                .leaf = leaf,
                .size = of.nx,
-               .call = state.ode ? &state.ode.function : nullptr},
+               .call = state.ode ? &state.ode.function : nullptr,
+               .derivatives = &state.derivatives,
+               .jacobian = {&state}},
               nodes, state.formula);
 }
 
@@ -182,7 +187,8 @@ LeafFunction function_of_guard(const Plan& plan, const GuardGroup& group) {
               {.name = text("guard '", group.name, "'"),
                .leaf = group.leaf,
                .size = group.size,
-               .call = &crossing.guard},
+               .call = &crossing.guard,
+               .derivatives = &crossing.guard_derivatives},
               nodes_of_guard(plan, group), crossing.formula);
 }
 

@@ -25,6 +25,7 @@ ChainRule::ChainRule(Machine& machine, LinearColumns columns)
       plan_(machine.plan()),
       columns_(std::move(columns)),
       probe_(machine),
+      of_called_(machine, probe_),
       variables_(machine),
       wanted_(plan_.nodes.size()),
       functions_(plan_.nodes.size()) {
@@ -45,7 +46,6 @@ ChainRule::ChainRule(Machine& machine, LinearColumns columns)
     if (wanted_[i] != 0 && (plan_.node(i).relation || plan_.node(i).opaque())) truths_.push_back(i);
   }
   for (const int leaf : plan_.odes) odes_.push_back(function_of_rates(plan_, leaf));
-  unit_x_.setZero(plan_.nx), unit_y_.setZero(plan_.ny);
 }
 
 /// Whether a node keeps its value where the state moves.
@@ -124,6 +124,7 @@ std::vector<std::string> ChainRule::called() const { return called_; }
 /// Whether a value moves with one of the columns.
 bool ChainRule::moves(const ReadValue& read) const {
   if (read.space == Space::x) return true;
+  if (read.space == Space::z) return false;
   if (read.space == Space::p) return columns_.of_parameter[read.index] >= 0;
   return !y_.row(read.index).isZero(0.0);
 }
@@ -165,41 +166,22 @@ Eigen::MatrixXd ChainRule::exact(const LeafFunction& function) {
 }
 
 Eigen::MatrixXd ChainRule::differences(const LeafFunction& function) {
+  const Eigen::MatrixXd each =
+      of_called_.of(function, t_, [this](const ReadValue& read) { return moves(read); });
+  if (!of_called_.obstacle().empty() && obstacle_.empty())
+    obstacle_ = text(function.name, ": ", of_called_.obstacle());
+  if (of_called_.differenced()) called_.push_back(function.name);
   Eigen::MatrixXd by = Eigen::MatrixXd::Zero(function.size, columns_.size);
-  Eigen::VectorXd one(function.size);
   Eigen::RowVectorXd row(columns_.size);
-  const LeafSystem& system = *plan_.leaf(function.leaf).system;
-  const auto read_at = [&](Machine& probe, double, double* out) {
-    (*function.call)(system, probe.at(function.leaf, t_, probe.x.data()),
-                     VectorRef(out, function.size));
-  };
-  bool any = false;
-  for (const ReadValue& read : function.reads) {
-    if (!moves(read)) continue;
-    any = true;
-    probe_.derivative(machine_.x.data(), along(read), function.size, read_at, one.data());
-    if (!one.allFinite() && obstacle_.empty())
-      obstacle_ = text(function.name, ": ", probe_.obstacle());
+  for (Index k = 0; k < each.cols(); ++k) {
     for (Index i = 0; i < function.size; ++i) {
-      if (one[i] == 0.0) continue;
+      if (each(i, k) == 0.0) continue;
       row.setZero();
-      add(read, one[i], row);
+      add(nth(function.reads, k), each(i, k), row);
       by.row(i) += row;
     }
   }
-  if (any) called_.push_back(function.name);
   return by;
-}
-
-TangentDirection ChainRule::along(const ReadValue& read) {
-  unit_x_.setZero(), unit_y_.setZero();
-  if (read.space == Space::p) return {.parameter = read.index};
-  if (read.space == Space::x) {
-    unit_x_[read.index] = 1.0;
-    return {.x = unit_x_.data()};
-  }
-  unit_y_[read.index] = 1.0;
-  return {.y = unit_y_.data()};
 }
 
 double ChainRule::value_of(const ReadValue& read) const {

@@ -1,15 +1,14 @@
-// Dense output: a machine set to any time of a finished run.
+// Dense output: the readers of all islands as one.
 #include "saltus/simulation/dense_output.hpp"
 
-#include "saltus/simulation/detail/contact.hpp"
+#include "saltus/simulation/detail/trajectory_reader.hpp"
 
 namespace saltus {
 
 namespace {
 
 const Trajectory& required(const Trajectory& trajectory) {
-  if (trajectory.empty())
-    throw ModelError("this run kept no dense output; ask for it with the option dense_output");
+  trajectory.require_kept();
   return trajectory;
 }
 
@@ -17,59 +16,16 @@ const Trajectory& required(const Trajectory& trajectory) {
 
 /// One reader of pieces for each island, or the only one.
 struct DenseOutput::Reader {
-  /// Reads a trajectory without parts. It is never moved, because its members point to each other.
-  struct OfPieces {
-    explicit OfPieces(const Trajectory& of)
-        : trajectory(of), machine(of.plan()), contacts(machine, of.tolerances()), x(of.plan()->nx) {
-      machine.load(of.start());
-    }
-
-    void move_to(double t, Side side) {
-      const Trajectory::Spot spot = trajectory.spot(t, side);
-      if (const Trajectory::Held& held = trajectory.held(spot); &held != now) hold(held);
-      trajectory.state(spot, t, x.data());
-      values = machine.evaluate_taps(t, x.data());
-    }
-    VectorView state() const { return {values.state(), machine.plan().nx}; }
-    VectorView signal(std::size_t i) const {
-      const Plan& plan = machine.plan();
-      const Place& place = plan.node(plan.taps[i].node).place;
-      return {values(place), place.size};
-    }
-
-    /// Restores the values that were held at that time.
-    void hold(const Trajectory::Held& held) {
-      now = &held;
-      machine.z = held.z, machine.modes = held.modes;
-      Index from = 0;
-      for (const int i : trajectory.held_nodes()) {
-        const Place& place = machine.plan().node(i).place;
-        machine.y.segment(place.offset, place.size) = held.y.segment(from, place.size);
-        from += place.size;
-      }
-      contacts.clear();
-      for (const SurfaceContact& contact : held.contacts) contacts.add(contact);
-      machine.carry_by(contacts.moving() ? &contacts : nullptr);
-    }
-
-    const Trajectory& trajectory;
-    Machine machine;
-    Contacts contacts;
-    const Trajectory::Held* now = nullptr;
-    Eigen::VectorXd x;
-    Values values;
-  };
-
   explicit Reader(const Trajectory& all) : whole(all) {
     if (whole.parts().empty()) {
-      readers.push_back(std::make_unique<OfPieces>(whole));
+      readers.push_back(std::make_unique<TrajectoryReader>(whole));
       return;
     }
     x.setZero(whole.plan()->nx), places.resize(whole.plan()->taps.size());
     for (const Trajectory::Part& part : whole.parts()) {
       for (std::size_t i = 0; i < part.signals.size(); ++i)
         places[static_cast<std::size_t>(part.signals[i])] = {readers.size(), i};
-      readers.push_back(std::make_unique<OfPieces>(*part.of));
+      readers.push_back(std::make_unique<TrajectoryReader>(*part.of));
     }
   }
 
@@ -85,7 +41,7 @@ struct DenseOutput::Reader {
   }
 
   const Trajectory& whole;
-  std::vector<std::unique_ptr<OfPieces>> readers;
+  std::vector<std::unique_ptr<TrajectoryReader>> readers;
   std::vector<std::pair<std::size_t, std::size_t>> places;  // of each signal: reader and number
   Eigen::VectorXd x;
 };

@@ -100,6 +100,7 @@ void IslandTangents::add_event(std::size_t k, const Results& from, std::size_t e
 }
 
 void IslandTangents::begin_end() {
+  parts_.clear();
   if (empty()) return;
   Sensitivities& out = results_->sensitivities;
   const auto zeros = [&](Index entries) {
@@ -110,6 +111,7 @@ void IslandTangents::begin_end() {
 }
 
 void IslandTangents::finish(std::size_t k, const Results& from) {
+  parts_.push_back(part_of(k, from));
   if (columns_[k].empty()) return;
   const Sensitivities& own = from.sensitivities;
   Sensitivities& out = results_->sensitivities;
@@ -119,7 +121,18 @@ void IslandTangents::finish(std::size_t k, const Results& from) {
     if (gap.time > since_) out.gaps.push_back(gap);
 }
 
+/// An island without columns has no derivatives of its own.
+TangentTrajectory::Part IslandTangents::part_of(std::size_t k, const Results& from) const {
+  if (from.sensitivities.trajectory.empty()) return {};
+  std::vector<Index> columns(columns_[k].begin(), columns_[k].end());
+  return {std::make_shared<const TangentTrajectory>(from.sensitivities.trajectory),
+          std::move(columns)};
+}
+
 void IslandTangents::end() {
+  const auto kept = [](const TangentTrajectory::Part& part) { return part.of != nullptr; };
+  if (std::ranges::any_of(parts_, kept))
+    results_->sensitivities.trajectory = TangentTrajectory::of_parts(parts_);
   std::ranges::stable_sort(results_->sensitivities.gaps, {}, &SensitivityGap::time);
 }
 

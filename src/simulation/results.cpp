@@ -38,4 +38,14 @@ Moment Results::at(double t, Side side) const {
   return moment;
 }
 
+MomentSensitivities Results::sensitivities_at(double t, Side side) const {
+  DenseSensitivities dense(trajectory, sensitivities);
+  dense.move_to(t, side);
+  MomentSensitivities moment{t, sensitivities.parameters, dense.state(), {}};
+  const std::vector<Tap>& taps = trajectory.plan()->taps;
+  for (std::size_t i = 0; i < taps.size(); ++i)
+    moment.outputs.emplace_back(taps[i].name, dense.signal(i));
+  return moment;
+}
+
 }  // namespace saltus

@@ -27,6 +27,12 @@ bool read_time(const tape::Graph& graph, const std::vector<tape::Node>& nodes) {
 
 }  // namespace
 
+void fix_time(TangentProbe& probe, double t, const double* x, TangentColumns& at) {
+  if (at.t.isZero(0.0)) return;
+  at.x -= probe.flow(t, x) * at.t;
+  at.t.setZero();
+}
+
 TangentFlow::TangentFlow(const Machine& machine, TangentProbe& probe)
     : machine_(&machine), probe_(&probe), variables_(machine) {
   make();
@@ -37,10 +43,9 @@ void TangentFlow::make() {
   functions_ = machine_->functions();
   const Plan& plan = machine_->plan();
   FlowGraph flow = flow_graph(plan);
-  obstacle_ = flow.obstacle;
-  rates_.reset(), guards_.reset();
+  rates_.reset(), guards_.reset(), chain_.reset();
   row_of_slot_.assign(static_cast<std::size_t>(plan.guard_slots), -1);
-  if (!obstacle_.empty()) return;
+  if (!flow.obstacle.empty()) return chain(), void();
   std::vector<tape::Node> rows(flow.rates.begin(), flow.rates.end());
   reads_time_ = read_time(flow.graph, rows);
   rates_ = partials(flow, plan, rows);
@@ -86,7 +91,7 @@ void TangentFlow::at(double t, const double* x, const TangentColumns& columns,
   if (functions_ != machine_->functions()) make();
   const Index n = machine_->plan().nx;
   jacobian.setZero(n, n), by.setZero(n, columns.size());
-  exact() ? exact_at(t, x, columns, jacobian, by) : differences_at(t, x, columns, jacobian, by);
+  exact() ? exact_at(t, x, columns, jacobian, by) : chain().at(t, x, columns, jacobian, by);
 }
 
 void TangentFlow::exact_at(double t, const double* x, const TangentColumns& columns,
@@ -105,47 +110,36 @@ void TangentFlow::exact_at(double t, const double* x, const TangentColumns& colu
   }
 }
 
-void TangentFlow::differences_at(double t, const double* x, const TangentColumns& columns,
-                                 Eigen::MatrixXd& jacobian, Eigen::MatrixXd& by) {
-  const Index n = machine_->plan().nx;
-  unit_.setZero(n);
-  for (Index j = 0; j < n; ++j) {
-    unit_[j] = 1.0;
-    probe_->flow(t, x, {.x = unit_.data()}, jacobian.col(j).data());
-    unit_[j] = 0.0;
-  }
-  for (Index k = 0; k < columns.size(); ++k) {
-    TangentDirection along = columns.column(k);
-    along.x = nullptr, along.t = 0.0;
-    probe_->flow(t, x, along, by.col(k).data());
-  }
-}
+FlowChain& TangentFlow::chain() { return chain_ ? *chain_ : chain_.emplace(*machine_, *probe_); }
 
 GuardTangent TangentFlow::guard(double t, const double* x, Index slot,
                                 const TangentColumns& columns) {
   if (functions_ != machine_->functions()) make();
-  const Index row = nth(row_of_slot_, slot), n = machine_->plan().nx;
-  if (row >= 0) return exact_guard(t, x, row, columns);
-  GuardTangent found{Eigen::VectorXd::Zero(n), 0.0, Eigen::RowVectorXd::Zero(columns.size())};
-  Eigen::VectorXd g(machine_->plan().look_slots);
-  const auto along = [&](const TangentDirection& direction) {
-    const auto read = [&](Machine& probe, double shift, double* out) {
-      probe.guards_at(t + shift * direction.t, probe.x.data(), g.data());
-      *out = g[slot];
-    };
-    double out = 0.0;
-    probe_->derivative(x, direction, 1, read, &out);
-    return out;
-  };
-  unit_.setZero(n);
-  for (Index j = 0; j < n; ++j) {
-    unit_[j] = 1.0;
-    found.by_state[j] = along({.x = unit_.data()});
-    unit_[j] = 0.0;
-  }
-  found.by_time = along({.t = 1.0});
-  for (Index k = 0; k < columns.size(); ++k) found.columns[k] = along(columns.column(k));
+  const Index row = nth(row_of_slot_, slot);
+  return row >= 0 ? exact_guard(t, x, row, columns) : called_guard(t, x, slot, columns);
+}
+
+/// The derivative by the time, where it is not declared, is a difference of the guard and of all that
+/// it reads.
+GuardTangent TangentFlow::called_guard(double t, const double* x, Index slot,
+                                       const TangentColumns& columns) {
+  GuardTangent found{Eigen::VectorXd::Zero(machine_->plan().nx), 0.0, {}};
+  chain().guard(t, x, slot, columns, found.by_state, found.columns);
+  if (const auto declared = chain().guard_by_time(t, slot))
+    found.by_time = *declared;
+  else
+    difference_by_time(t, x, slot, found.by_time);
+  found.columns += found.by_time * columns.t;
   return found;
+}
+
+void TangentFlow::difference_by_time(double t, const double* x, Index slot, double& by_time) {
+  Eigen::VectorXd g(machine_->plan().look_slots);
+  const auto read = [&](Machine& probe, double shift, double* out) {
+    probe.guards_at(t + shift, probe.x.data(), g.data());
+    *out = g[slot];
+  };
+  probe_->derivative(x, {.t = 1.0}, 1, read, &by_time);
 }
 
 GuardTangent TangentFlow::exact_guard(double t, const double* x, Index row,
@@ -178,7 +172,14 @@ bool TangentFlow::autonomous() const { return exact() && !reads_time_; }
 
 std::string TangentFlow::describe() const {
   if (exact()) return "by exact derivatives of the flow";
-  return text("by central differences of the flow, because ", obstacle_, " is called");
+  const auto listed = [](std::string_view before, const std::vector<std::string>& names) {
+    std::string all;
+    for (const std::string& one : names) all += (all.empty() ? before : ", "), all += one;
+    return all;
+  };
+  return "by exact derivatives of the flow" +
+         listed(", declared derivatives of ", chain_->called(true)) +
+         listed(", central differences of ", chain_->called(false));
 }
 
 }  // namespace saltus

@@ -34,23 +34,24 @@ std::string first_line(const std::string& of) { return of.substr(0, of.find('\n'
 }  // namespace
 
 void TangentProbe::begin() {
-  x_sizes_.setZero(machine_->x.size());
-  z_sizes_.setZero(machine_->z.size()), y_sizes_.setZero(machine_->y.size());
-  step_ = 0.0;
+  sizes_.x.setZero(machine_->x.size());
+  sizes_.z.setZero(machine_->z.size()), sizes_.y.setZero(machine_->y.size());
+  sizes_.step = 0.0;
 }
 
 void TangentProbe::note(const double* x, double step) {
   const auto grow = [](Eigen::VectorXd& sizes, const double* now) {
     for (Index i = 0; i < sizes.size(); ++i) sizes[i] = std::max(sizes[i], std::abs(now[i]));
   };
-  grow(x_sizes_, x), grow(z_sizes_, machine_->z.data()), grow(y_sizes_, machine_->y.data());
-  step_ = std::max(step_, step);
+  grow(sizes_.x, x), grow(sizes_.z, machine_->z.data()), grow(sizes_.y, machine_->y.data());
+  sizes_.step = std::max(sizes_.step, step);
 }
 
 /// The shift that moves no value by more than its size, where a size is at least `least`; 0 if
 /// nothing moves, NaN if the direction is.
 double TangentProbe::shift_of(const double* x, const TangentDirection& along, double least) const {
-  double most = in_sizes(along.t, step_);  // a short step says nothing: it may end at an event
+  double most =
+      in_sizes(along.t, sizes_.step);  // a short step says nothing: it may end at an event
   const auto look = [&](const double* d, const Eigen::VectorXd& sizes, const double* values) {
     if (d == nullptr) return;
     for (Index i = 0; i < sizes.size(); ++i) {
@@ -58,9 +59,9 @@ double TangentProbe::shift_of(const double* x, const TangentDirection& along, do
       most = std::isnan(now) || std::isnan(most) ? nan : std::max(most, now);
     }
   };
-  look(along.x, x_sizes_, x);
-  look(along.z, z_sizes_, machine_->z.data());
-  look(along.y, y_sizes_, machine_->y.data());
+  look(along.x, sizes_.x, x);
+  look(along.z, sizes_.z, machine_->z.data());
+  look(along.y, sizes_.y, machine_->y.data());
   if (along.parameter >= 0 && !std::isnan(most))
     most = std::max(most, in_sizes(1.0, std::max(std::abs(machine_->p[along.parameter]), least)));
   return most > 0.0 ? 1.0 / most : most;
@@ -148,7 +149,7 @@ Machine& TangentProbe::at(const double* x, const TangentDirection& along, double
 void TangentProbe::let_rest(double* xdot) const {
   const RestingStates& resting = machine_->resting();
   if (!resting.any()) return;
-  for (Index i = 0; i < x_sizes_.size(); ++i) {
+  for (Index i = 0; i < sizes_.x.size(); ++i) {
     if (resting.rests(i)) xdot[i] = 0.0;
   }
 }
@@ -157,7 +158,7 @@ void TangentProbe::flow(double t, const double* x, const TangentDirection& along
   const auto read = [&](Machine& probe, double shift, double* xdot) {
     probe.flow(t + shift * along.t, probe.x.data(), xdot);
   };
-  derivative(x, along, x_sizes_.size(), read, out);
+  derivative(x, along, sizes_.x.size(), read, out);
   let_rest(out);
 }
 

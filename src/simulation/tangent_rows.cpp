@@ -1,7 +1,8 @@
 #include "saltus/simulation/detail/tangent_rows.hpp"
 
-#include <algorithm>
 #include <utility>
+
+#include "saltus/simulation/detail/signal_tangents.hpp"
 
 namespace saltus {
 
@@ -20,47 +21,25 @@ void append_row_major(const Eigen::MatrixXd& values, std::vector<double>& out) {
 void TangentRows::begin(std::vector<std::string> parameters) {
   Sensitivities& out = results_->sensitivities;
   out = {};
-  out.parameters = std::move(parameters);
+  out.parameters = names_ = std::move(parameters);
   out.signals.resize(machine_->plan().taps.size());
 }
 
-/// The derivatives of all recorded signals by differences, a column for each parameter.
-Eigen::MatrixXd TangentRows::differences(double t, const double* x, const TangentColumns& at) {
-  const Plan& plan = machine_->plan();
-  Index width = 0;
-  for (const Tap& tap : plan.taps) width += plan.node(tap.node).place.size;
-  Eigen::MatrixXd all(width, at.size());
-  const auto read = [&](Machine& probe, double, double* out) {
-    const Values values = probe.evaluate_taps(t, probe.x.data());
-    for (const Tap& tap : plan.taps) {
-      const Place& place = plan.node(tap.node).place;
-      out = std::copy_n(values(place), place.size, out);
-    }
-  };
-  for (Index k = 0; k < at.size(); ++k)
-    probe_->derivative(x, at.column(k), width, read, all.col(k).data());
-  return all;
-}
-
-/// Views of states need no differences.
 void TangentRows::add(double t, const double* x, const TangentColumns& at,
                       const OneSided& one_sided) {
   const Plan& plan = machine_->plan();
-  Eigen::MatrixXd all = differences(t, x, at), by_x = at.x, by_z = at.z;
+  Eigen::MatrixXd all = signal_tangents(*probe_, plan, t, x, at), by_x = at.x, by_z = at.z;
   if (!options_->event_rows) {
     gaps_->clear(one_sided, t, row_at_event, by_x, by_z);
     for (Index k = 0; k < at.size(); ++k)
       if (one_sided.holds(t, k)) all.col(k).setConstant(TangentGaps::none);
   }
+  put_views(plan, by_x, by_z, all);
   Index first = 0;
   for (std::size_t i = 0; i < plan.taps.size(); ++i) {
-    const Place& place = plan.node(plan.taps[i].node).place;
-    if (place.space == Space::x)
-      all.middleRows(first, place.size) = by_x.middleRows(place.offset, place.size);
-    if (place.space == Space::z)
-      all.middleRows(first, place.size) = by_z.middleRows(place.offset, place.size);
-    append_row_major(all.middleRows(first, place.size), results_->sensitivities.signals[i]);
-    first += place.size;
+    const Index size = plan.node(plan.taps[i].node).place.size;
+    append_row_major(all.middleRows(first, size), results_->sensitivities.signals[i]);
+    first += size;
   }
 }
 

@@ -66,6 +66,17 @@ void Tangents::begin(const Context& start) {
   t_ = start.time(), phase_ = Phase::between;
   probe_.begin(), probe_.note(machine_->x.data(), 0.0);
   begin_signals(start);
+  open_trajectory();
+}
+
+void Tangents::renew() {
+  rows_.renew();
+  if (variation_) open_trajectory();
+}
+
+void Tangents::open_trajectory() {
+  if (options_->dense_output)
+    results_->sensitivities.trajectory.open(t_, columns_, machine_->resting(), probe_.sizes());
 }
 
 /// The constant outputs follow the parameters, and the held ones the states too.
@@ -99,11 +110,19 @@ void Tangents::step(double from, double to, Integration& integration) {
   variation_->forget();
   gaps_.forget_end();
   t_ = to;
-  if (!integration.started() || machine_->plan().nx == 0) return;
+  if (integration.started() && machine_->plan().nx > 0) solve(from, to, integration);
+  if (options_->dense_output)
+    results_->sensitivities.trajectory.add(from, to, variation_->pieces(), columns_,
+                                           machine_->resting(), probe_.sizes());
+}
+
+/// Solves the linear equation along the step.
+void Tangents::solve(double from, double to, Integration& integration) {
   // A step of some roundings of the time was cut by an event, and says nothing about the scale of it.
   const bool cut =
       to - from <= least_step * thresholds::eps * std::max(std::abs(from), std::abs(to));
   probe_.note(integration.state().data(), cut ? 0.0 : to - from);
+  flow_.forget_obstacle();
   Eigen::VectorXd x(machine_->plan().nx);
   const auto equation = [&](double t, Eigen::MatrixXd& a, Eigen::MatrixXd& b) {
     if (t < to)
@@ -116,7 +135,7 @@ void Tangents::step(double from, double to, Integration& integration) {
   const double middle = from < joint && joint < to ? joint : from;
   variation_->advance(from, middle, equation, columns_.x);
   variation_->advance(middle, to, equation, columns_.x);
-  gaps_.lose_not_finite(t_, probe_.obstacle());
+  gaps_.lose_not_finite(t_, flow_.obstacle());
   look_for_jump(from, to, [&](double t) {
     if (t < to)
       integration.interpolate(t, x.data());
@@ -152,26 +171,22 @@ void Tangents::monitor(const MonitorHit& hit, const double* x) {
   events_.add(t_, moved.by, cause_.has_value());
 }
 
-/// Turns derivatives at a moving time into those at a fixed time.
-void Tangents::fix_time(double t, const double* x, TangentColumns& at) {
-  if (at.t.isZero(0.0)) return;
-  at.x -= probe_.flow(t, x) * at.t;
-  at.t.setZero();
-}
-
 void Tangents::record(double t, const double* x) {
   if (phase_ == Phase::opened) return rows_.add(t, x, before_, one_sided_);
   TangentColumns at = columns_;
   if (!in_instant() && t < t_) variation_->at(t, at.x);
-  fix_time(t, x, at);
+  fix_time(probe_, t, x, at);
   if (in_instant()) one_sided_.judge(t, *machine_, columns_, at, cause());  // up to this pass
   rows_.add(t, x, at, one_sided_);
 }
 
 void Tangents::finish() {
   events_.finish();
+  if (options_->dense_output)
+    results_->sensitivities.trajectory.close(t_, columns_, machine_->resting(), probe_.sizes(),
+                                             results_->status != Status::failed);
   TangentColumns at = columns_;
-  fix_time(t_, machine_->x.data(), at);
+  fix_time(probe_, t_, machine_->x.data(), at);
   gaps_.forget_end();
   if (results_->status == Status::reached_end) gaps_.end(one_sided_, t_, at.x, at.z);
   rows_.finish(at);

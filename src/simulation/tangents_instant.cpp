@@ -3,6 +3,7 @@
 #include <cmath>
 #include <new>
 
+#include "saltus/simulation/detail/declared_derivatives.hpp"
 #include "saltus/simulation/detail/tangents.hpp"
 
 namespace saltus {
@@ -19,6 +20,14 @@ constexpr double column_rounding = 1e-6;
 /// The rounding of a guard's value, in parts of its terms and of their movement in a rounding of time.
 constexpr double guard_rounding = 1e3 * thresholds::eps;
 
+/// The declared derivatives of a reset map; null if there are none.
+const DerivativesFunction* derivatives_of(const PlanLeaf& leaf, const Transition::Call& call) {
+  for (const ZeroCrossing& crossing : leaf.declared().zero_crossings)
+    if (&crossing.reset_map == call.map && crossing.reset_derivatives)
+      return &crossing.reset_derivatives;
+  return nullptr;
+}
+
 }  // namespace
 
 /// Opens an instant, whose time moves as its causes do.
@@ -26,7 +35,7 @@ void Tangents::open(const Present& present, const std::vector<int>& due) {
   t_ = present.t, phase_ = Phase::opened;
   const double* x = machine_->x.data();
   before_ = columns_;
-  fix_time(t_, x, before_);
+  fix_time(probe_, t_, x, before_);
   one_sided_.open(*machine_, before_);
   probe_.note(x, 0.0);
   const TangentColumns until = columns_;
@@ -68,6 +77,8 @@ void Tangents::merge(const MovedTime& moved, bool first) {
 void Tangents::call(const Transition::Call& call, const double* x_next, const double* z_next,
                     int mode) {
   const PlanLeaf& leaf = machine_->plan().leaf(call.leaf);
+  if (const DerivativesFunction* declared = derivatives_of(leaf, call))
+    return call_declared(call, *declared, x_next, z_next, mode);
   Eigen::VectorXd x(leaf.nx), z(leaf.nz), out(leaf.nx + leaf.nz);
   for (Index k = 0; k < size(); ++k) {
     const auto read = [&](Machine& probe, double shift, double* to) {
@@ -90,6 +101,37 @@ void Tangents::call(const Transition::Call& call, const double* x_next, const do
     next_x_.col(k).segment(leaf.x, leaf.nx) = out.head(leaf.nx);
     next_z_.col(k).segment(leaf.z, leaf.nz) = out.tail(leaf.nz);
   }
+}
+
+/// The same by declared derivatives. The inputs are those of the state before the pass.
+void Tangents::call_declared(const Transition::Call& call, const DerivativesFunction& derivatives,
+                             const double* x_next, const double* z_next, int mode) {
+  const PlanLeaf& leaf = machine_->plan().leaf(call.leaf);
+  Machine& probe = probe_.at(machine_->x.data());
+  At at = probe.at(call.leaf, call.t, probe.x.data());
+  at.entry = call.entry, at.mode = mode;
+  new (&at.x) VectorView(x_next + leaf.x, leaf.nx);
+  new (&at.z) VectorView(z_next + leaf.z, leaf.nz);
+  const Eigen::MatrixXd by = declared_derivatives(leaf, derivatives, at, leaf.nx + leaf.nz,
+                                                  text("the reset map of '", call.source, "'"));
+  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(by.cols(), size());
+  each_column(leaf, [&](Index column, const Place& place) {
+    const bool own = column < leaf.nx + leaf.nz;
+    for (Index k = 0; k < size(); ++k) {
+      if (place.space == Space::x)
+        values(column, k) = (own ? next_x_ : columns_.x)(place.offset, k);
+      else if (place.space == Space::z)
+        values(column, k) = (own ? next_z_ : columns_.z)(place.offset, k);
+      else if (place.space == Space::p)
+        values(column, k) = nth(columns_.parameters, k) == place.offset ? 1.0 : 0.0;
+      else
+        values(column, k) = columns_.y(place.offset, k);
+    }
+  });
+  values.bottomRows(1) = columns_.t;
+  const Eigen::MatrixXd next = by * values;
+  next_x_.middleRows(leaf.x, leaf.nx) = next.topRows(leaf.nx);
+  next_z_.middleRows(leaf.z, leaf.nz) = next.bottomRows(leaf.nz);
 }
 
 void Tangents::commit() {
@@ -119,11 +161,12 @@ void Tangents::close() {
   if (machine_->carries())
     for (Index k = 0; k < size(); ++k) lose(k, "", "a block is carried by a moving surface");
   TangentColumns fixed = columns_;
-  fix_time(t_, machine_->x.data(), fixed);
+  fix_time(probe_, t_, machine_->x.data(), fixed);
   one_sided_.judge(t_, *machine_, columns_, fixed, cause());
   if (!flow_.autonomous()) columns_ = std::move(fixed);
   phase_ = Phase::between;
   variation_->forget();
+  if (options_->dense_output) results_->sensitivities.trajectory.instant(probe_.sizes());
 }
 
 /// A guard that fires without a root was at zero already, where the run began or where an effect put

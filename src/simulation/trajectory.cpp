@@ -150,6 +150,11 @@ std::vector<double> Trajectory::joints() const {
   return times;
 }
 
+void Trajectory::require_kept() const {
+  if (empty())
+    throw ModelError("this run kept no dense output; ask for it with the option dense_output");
+}
+
 void Trajectory::require_inside(double t) const {
   if (t >= begin() && t <= end()) return;
   throw ModelError(text("t = ", t, " s is outside the run, which went from ", begin(), " s to ",

@@ -138,11 +138,15 @@ double Variation::error_of(const Piece& piece, const Equation& equation) {
   return most;
 }
 
+Eigen::MatrixXd Variation::Piece::at(double t) const {
+  const double part = (t - from) / (to - from);
+  return sum(s, [part](int j) { return basis(j, part, -1); });
+}
+
 bool Variation::at(double t, Eigen::MatrixXd& s) const {
   for (const Piece& piece : pieces_) {
     if (!(piece.from <= t && t <= piece.to)) continue;
-    const double part = (t - piece.from) / (piece.to - piece.from);
-    s = sum(piece.s, [part](int j) { return basis(j, part, -1); });
+    s = piece.at(t);
     return true;
   }
   return false;

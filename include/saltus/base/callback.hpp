@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "saltus/base/view.hpp"
+#include "saltus/base/derivatives.hpp"
 
 namespace saltus {
 
@@ -49,6 +49,10 @@ void call(const F& f, const At& at, const MatrixRef& out) {
 template <class F>
 void call(const F& f, const At& at, Next& next) {
   f(at, next);
+}
+template <class F>
+void call(const F& f, const At& at, Derivatives& out) {
+  f(at, out);
 }
 
 }  // namespace detail
@@ -142,5 +146,8 @@ using ResetMap = Callback<void(const At&, Next&)>;
 
 /// Fills a matrix, for example the Jacobian d(xdot)/d(x).
 using MatrixFunction = Callback<void(const At&, MatrixRef)>;
+
+/// Writes the derivatives of another function by all that it reads.
+using DerivativesFunction = Callback<void(const At&, Derivatives&)>;
 
 }  // namespace saltus

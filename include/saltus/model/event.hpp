@@ -162,6 +162,9 @@ struct ZeroCrossing {
   std::optional<Touches> touches = {};          ///< known from the tapes of guard and reset map
   std::optional<std::vector<int>> inputs = {};  ///< the inputs the guard reads; all if not given
   Formula formula = {};                         ///< in place of guard: a plan may fuse it
+  DerivativesFunction guard_derivatives = {};   ///< of the guard, see ContinuousState::derivatives
+  /// Of the reset map, also of one that Python traces: the rows are x+, then z+.
+  DerivativesFunction reset_derivatives = {};
 
   /// [s] The time from the trigger to the execution, >= 0. It is evaluated at the trigger, with the
   /// values that the reset map would see. If not given, it is 0.

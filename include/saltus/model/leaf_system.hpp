@@ -37,6 +37,9 @@ struct ContinuousState {
   VectorFunction sparse_jacobian = {};  ///< the values of those entries, in their order; optional
   EntryRule entries = {};               ///< the entries of the inputs that each xdot[i] reads
   Formula formula = {};                 ///< in place of ode: a plan may fuse it
+  /// The derivatives of xdot by all that the ode reads, optional: with them `sensitivity` and
+  /// `linearize` take no differences of an ode that is called. A formula has exact ones by itself.
+  DerivativesFunction derivatives = {};
 };
 
 /// All declarations of a leaf, in the order in which it made them.

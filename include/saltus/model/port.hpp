@@ -61,6 +61,7 @@ struct OutputDeclaration {
   std::optional<Place> view = {};  ///< a state or parameter shown directly, never copied
   EntryRule entries = {};          ///< the entries of the inputs that each of its entries reads
   Formula formula = {};            ///< in place of calc: a plan may fuse it
+  DerivativesFunction derivatives = {};  ///< of calc, see ContinuousState::derivatives
   /// A block behind the output, such as a RateTransition: what reads or records the output reads
   /// that of this block. It has one input and one output, of this output's shape, and is known as
   /// "block.output".

@@ -11,8 +11,8 @@
 
 #include "saltus/base/list.hpp"
 #include "saltus/simulation/dense_output.hpp"
+#include "saltus/simulation/dense_sensitivities.hpp"
 #include "saltus/simulation/event_log.hpp"
-#include "saltus/simulation/sensitivities.hpp"
 #include "saltus/solver/statistics.hpp"
 
 namespace saltus {
@@ -87,6 +87,11 @@ struct Results {
   /// it, with Side::left before it. The system must still exist. For many times use one
   /// DenseOutput. Throws ModelError for a time outside the run, and for a run without that option.
   Moment at(double t, Side side = Side::right) const;
+  /// The derivatives of these values at that fixed time, of a run with the options sensitivity and
+  /// dense_output. At the time of an event they are those after it, with Side::left before it: they
+  /// differ by the jump that the moving event makes. At a recorded row they are those of the row.
+  /// For many times use one DenseSensitivities. Throws ModelError as `at` does.
+  MomentSensitivities sensitivities_at(double t, Side side = Side::right) const;
 
   /// A recorded signal by name, rows by width; a ModelError lists the names there are.
   Eigen::Map<const RecordedSignal::Matrix> output(std::string_view name) const;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "saltus/simulation/detail/tangent_trajectory.hpp"
+
 namespace saltus {
 
 /// An instant from which on a derivative does not exist, or at which it does not: a run that ends
@@ -29,6 +31,7 @@ struct Sensitivities {
   std::vector<double> predicted;    ///< events x parameters: of Event::predicted, else NaN
   std::vector<double> continuous_state, discrete_state;  ///< at the end: entries x parameters
   std::vector<SensitivityGap> gaps;                      ///< in order of time
+  TangentTrajectory trajectory;  ///< with the option dense_output; otherwise empty
 
   bool empty() const noexcept { return parameters.empty(); }
   std::size_t size() const noexcept { return parameters.size(); }

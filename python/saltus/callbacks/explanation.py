@@ -76,6 +76,9 @@ def _how(callback: ExplainedCallback) -> str:
 
 def explained(block: Block, function: Block, outcome: Any) -> ExplainedCallback:
     """The explanation of one function, by the outcome of its tracing."""
+    if function["role"] == "derivatives":
+        reason = "declared derivatives, asked for by `sensitivity` and `linearize` alone"
+        return ExplainedCallback(block["path"], function["what"], "called", reason)
     if outcome is None:
         return ExplainedCallback(block["path"], function["what"], "compiled", "")
     if hasattr(outcome, "tape"):

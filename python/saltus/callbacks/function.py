@@ -21,10 +21,10 @@ GUARDS = {"guard", "relation"}
 
 
 def outcome_of(block: Block, function: Block, trace: Callable[[Any], Any]) -> Any:
-    """Traced or Refused; None for a compiled function."""
+    """Traced or Refused; None for a compiled function, and for derivatives, which are called."""
     from saltus import tracing
 
-    if function["compiled"]:
+    if function["compiled"] or function["role"] == "derivatives":
         return None
     if isinstance(function["function"], tracing.Known):
         return function["function"].outcome()

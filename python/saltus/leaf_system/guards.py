@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from numpy.typing import ArrayLike
 
@@ -10,6 +10,7 @@ from saltus import _core
 from saltus._declarations import EVERYTHING, RequiresInputs, callback_of, direction_of, inputs_of
 from saltus._porting import refusing
 from saltus._whole import is_whole
+from saltus.leaf_system.derivatives import columns_of
 
 __all__ = ["DeclaresGuards"]
 
@@ -48,6 +49,8 @@ class DeclaresGuards(_core.LeafSystem):
         persistent: bool | None = None,
         initial_value: bool | None = None,
         use_values_from_trigger_time: bool | None = None,
+        guard_derivatives: Callable[..., Mapping[str, ArrayLike]] | None = None,
+        reset_derivatives: Callable[..., Mapping[str, ArrayLike]] | None = None,
     ) -> None:
         """Declares an event that happens where g = guard(time, state, *inputs, **parameters), a
         smooth number in any unit, reaches zero or crosses it. A truth is a guard too, positive
@@ -81,6 +84,9 @@ class DeclaresGuards(_core.LeafSystem):
           leaves it out.
         - `zeno_tolerance` [s] overrides that of the simulator options, 0 switches the monitor off.
         - `formula` has the meaning of the same argument of `declare_output_port`, for the guard.
+        - `guard_derivatives` gives those of the guard, with `size` rows, as `derivatives` in
+          `declare_continuous_state`. `reset_derivatives` gives those of the reset map: the rows are
+          all of x+, then z+, and an entry that the reset map keeps has the row of the identity.
 
         With any of the following it is *queued*, like an event of SBML (Level 3 Version 2, section
         4.11): its firing is a trigger, which schedules an execution of the reset map and of
@@ -144,6 +150,16 @@ class DeclaresGuards(_core.LeafSystem):
             "persistent": persistent,
             "initial_value": initial_value,
             "use_values_from_trigger_time": use_values_from_trigger_time,
+            "guard_derivatives": columns_of(
+                guard_derivatives, self, inputs_of(requires_inputs), size, "derivatives of guard"
+            ),
+            "reset_derivatives": columns_of(
+                reset_derivatives,
+                self,
+                inputs_of(requires_inputs),
+                "states",
+                "derivatives of reset map",
+            ),
         }
         super().declare_zero_crossing(
             callback_of(guard), callback_of(reset_map), name or "", options

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from saltus import _core
 from saltus._declarations import EVERYTHING, RequiresInputs, callback_of, inputs_of, shape_of
 from saltus._porting import refusing
 from saltus.errors import ModelError
+from saltus.leaf_system.derivatives import columns_of
 
 __all__ = ["DeclaresPorts"]
 
@@ -85,6 +86,7 @@ class DeclaresPorts(_core.LeafSystem):
         formula: bool = False,
         period: float | None = None,
         offset: float = 0.0,
+        derivatives: Callable[..., Mapping[str, ArrayLike]] | None = None,
     ) -> int:
         """Declares an output, y = callback(time, state, *inputs, **parameters), by default called
         out_0, out_1, ...; returns its position.
@@ -109,6 +111,8 @@ class DeclaresPorts(_core.LeafSystem):
         Before the first tick it is `default_value`, or 0; its shape is a number unless `shape` or
         `default_value` says otherwise. A `RateTransition` behind the output does it, which is
         called "block.output" in contexts and orders the outputs of one tick.
+
+        `derivatives` gives those of the callback, as in `declare_continuous_state`.
 
         Raises ModelError for a name declared twice, an unknown value in `reads`, a period that is
         not above 0, an offset that is not finite, and an offset without a period.
@@ -139,6 +143,7 @@ class DeclaresPorts(_core.LeafSystem):
             _core.Convention.state,
             bool(formula),
             ticks,
+            columns_of(derivatives, self, inputs, None, f"derivatives of output '{name or ''}'"),
         )
 
     @refusing

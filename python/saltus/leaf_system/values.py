@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
 from saltus._declarations import RequiresInputs, callback_of, initial_of, inputs_of, places_of
 from saltus._porting import refusing
 from saltus.errors import ModelError
+from saltus.leaf_system.derivatives import columns_of
 from saltus.parameter import Parameter, given
 
 __all__ = ["DeclaresValues"]
@@ -40,6 +42,7 @@ class DeclaresValues(_core.LeafSystem):
         sparse_jacobian: Callable[..., ArrayLike] | None = None,
         formula: bool = False,
         names: Sequence[str] = (),
+        derivatives: Callable[..., Mapping[str, ArrayLike]] | None = None,
     ) -> None:
         """Declares the continuous state x, with dx/dt = ode(time, state, *inputs, **parameters), in
         units of x per second.
@@ -60,6 +63,12 @@ class DeclaresValues(_core.LeafSystem):
         tables, ``sweep(ball, {"height": [5.0, 10.0]}, ...)``, ``--set height=5``.
 
         `formula` has the meaning that it has in `declare_output_port`.
+
+        `derivatives`, called like the ode, gives the derivatives of the ode by all that it reads,
+        so that `sensitivity` and `linearize` take no differences of an ode that is called. It is a
+        dict of arrays of n rows: by 'continuous_state', 'discrete_state', 'time' [1/s], each
+        parameter and each input, by its name, with a column for each entry. Those that are missing
+        are zero. An ode that is traced has exact derivatives by itself.
         """
         what = f"block '{self.name}': continuous state"
         initial = initial_of(what, shape, default_value)
@@ -75,6 +84,13 @@ class DeclaresValues(_core.LeafSystem):
             callback_of(sparse_jacobian),
             bool(formula),
             names_of(what, names),
+            columns_of(
+                derivatives,
+                self,
+                inputs_of(requires_inputs),
+                np.size(initial),
+                "derivatives of ode",
+            ),
         )
 
     @refusing

@@ -36,6 +36,7 @@ def _declare_function(
         convention,
         bool(formula),
         None,
+        None,
     )
 
 

@@ -240,7 +240,7 @@ class Results(Pictures):
         >>> results.sensitivities.parameters
         ('e', 'x[0]')
         """
-        return Sensitivities(self._core)
+        return Sensitivities(self._core, self._asks)
 
     @property
     def sensitivity_gaps(self) -> tuple[Gap, ...]:

@@ -11,10 +11,15 @@ import numpy as np
 from saltus import _core
 from saltus.errors import ModelError
 
-__all__ = ["FIRINGS", "KINDS", "Columns", "KeptRun", "Record", "same"]
+__all__ = ["FIRINGS", "KINDS", "NOT_KEPT", "Columns", "KeptRun", "Record", "same"]
 
 FIRINGS = ("zero_crossing", "terminal", "time", "executed")
 """kinds of events that say that a guard or a clock had its effect"""
+
+NOT_KEPT = (
+    "results that were loaded, or came from another process, keep no dense output; read it where "
+    "the run was done"
+)
 
 Columns = dict[str, np.ndarray]
 
@@ -58,6 +63,9 @@ class Record(Protocol):
     def event(self, index: int, /) -> tuple[Any, ...]: ...
     def event_times(self, name: str, kind: str | None, /) -> np.ndarray: ...
     def at(self, times: Sequence[float], left: bool, /) -> tuple[np.ndarray, Columns]: ...
+    def sensitivities_at(
+        self, times: Sequence[float], left: bool, /
+    ) -> tuple[np.ndarray, Columns]: ...
 
 
 @dataclass(frozen=True)
@@ -127,10 +135,9 @@ class KeptRun:
         )
 
     def at(self, times: Sequence[float], left: bool, /) -> tuple[np.ndarray, Columns]:
-        raise ModelError(
-            "results that were loaded, or came from another process, keep no dense output; "
-            "read it where the run was done"
-        )
+        raise ModelError(NOT_KEPT)
+
+    sensitivities_at = at
 
 
 KINDS: dict[str, Callable[[KeptRun, dict[str, Any]], Any]] = {}

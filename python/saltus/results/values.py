@@ -73,8 +73,8 @@ class Values(Mapping[str, Any]):
         return "\n".join([f"<Values at t = {self.time} s", *lines]) + ">"
 
 
-def values_at(record: Record, t: ArrayLike, side: str) -> Values:
-    """Reads the dense output of a run."""
+def values_at(record: Record, t: ArrayLike, side: str, derivatives: bool = False) -> Values:
+    """Reads the dense output of a run, or its derivatives, with the parameter as the last axis."""
     if side not in ("left", "right"):
         raise ModelError(f"side: unknown side {side!r}{known_names(str(side), ['left', 'right'])}")
     if not record.dense:
@@ -88,7 +88,8 @@ def values_at(record: Record, t: ArrayLike, side: str) -> Values:
         times = np.asarray(t, dtype=float)
     except (TypeError, ValueError):
         raise ModelError(f"expected a time or an array of times in seconds, found {t!r}") from None
-    state, outputs = record.at(times.ravel().tolist(), side == "left")
+    read = record.sensitivities_at if derivatives else record.at
+    state, outputs = read(times.ravel().tolist(), side == "left")
 
     def shaped(array: np.ndarray) -> Any:
         return array.reshape(times.shape + array.shape[1:])[()]

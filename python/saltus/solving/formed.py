@@ -119,5 +119,8 @@ class Formed:
         state, outputs = self._record.at([self._form.time(t) for t in times], left)
         return self._form.state(state), self._states(outputs)
 
+    def sensitivities_at(self, times: Sequence[float], left: bool, /) -> tuple[np.ndarray, Columns]:
+        return self._record.sensitivities_at(times, left)  # `sensitivities` raised before
+
     def _states(self, columns: Columns) -> Columns:
         return {name: self._form.state(column) for name, column in columns.items()}

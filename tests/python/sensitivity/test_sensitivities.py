@@ -137,7 +137,7 @@ def test_describe_says_how_they_are_made():
         simulator = saltus.Simulator(Throw(9.81, 0.5, 2.0), sensitivity=["e"], python=python)
         words[python] = simulator.describe()
     assert "exact derivatives of the flow" in words["traced"]
-    assert "the derivative of block 'ball' is called" in words["called"]
+    assert "central differences of the derivative of block 'ball'" in words["called"]
 
 
 def van_der_pol(mu):

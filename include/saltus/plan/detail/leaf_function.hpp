@@ -34,14 +34,27 @@ struct LeafPartials {
   tape::Tape tape;
 };
 
+/// The declared derivative of the rates of a leaf by its own state, where inputs count as constants.
+struct DeclaredJacobian {
+  const ContinuousState* state = nullptr;  ///< null, or without a Jacobian: nothing is declared
+
+  explicit operator bool() const noexcept {
+    return state != nullptr && (state->jacobian || state->sparse_jacobian);
+  }
+};
+
 /// An output, a relation, a guard or the derivative of a leaf.
 struct LeafFunction {
   std::string name;  ///< "the derivative of block 'ball'"
   int leaf = -1;
   Index size = 0;
-  const VectorFunction* call = nullptr;       ///< null: zero
-  std::vector<ReadValue> reads = {};          ///< that may move: truths and discrete states do not
-  std::optional<LeafPartials> partials = {};  ///< none: the function is called
+  const VectorFunction* call = nullptr;              ///< null: zero
+  std::vector<ReadValue> reads = {};                 ///< all but truths, the mode and the time
+  std::optional<LeafPartials> partials = {};         ///< none: the function is called
+  const DerivativesFunction* derivatives = nullptr;  ///< null or empty: none are declared
+  DeclaredJacobian jacobian = {};
+
+  bool declares_derivatives() const { return derivatives != nullptr && *derivatives; }
 };
 
 /// The output or relation of a node. It must not be a view.

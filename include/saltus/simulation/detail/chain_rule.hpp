@@ -8,7 +8,7 @@
 #include "saltus/base/list.hpp"
 #include "saltus/plan/detail/flow_variables.hpp"
 #include "saltus/plan/detail/leaf_function.hpp"
-#include "saltus/simulation/detail/tangent_probe.hpp"
+#include "saltus/simulation/detail/called_derivatives.hpp"
 
 namespace saltus {
 
@@ -21,7 +21,8 @@ struct LinearColumns {
 
 /// Multiplies the derivatives of the functions of a plan along its wires (the chain rule, forward: A.
 /// Griewank, A. Walther, Evaluating Derivatives, 2nd ed., SIAM 2008, section 3.1). A function with a
-/// formula has exact derivatives. A called one has central differences by each value that it reads.
+/// formula has exact derivatives. A called one has those that are declared, and central differences by
+/// each other value that it reads.
 /// Truths, modes, discrete states and sampled signals are constant.
 class ChainRule {
  public:
@@ -66,6 +67,7 @@ class ChainRule {
   const Plan& plan_;
   LinearColumns columns_;
   TangentProbe probe_;
+  CalledDerivatives of_called_;
   FlowVariables variables_;
   double t_ = 0.0;
   std::vector<int> order_, truths_;
@@ -93,8 +95,7 @@ class ChainRule {
   };
   Sides sides(const LeafFunction& function, const ReadValue& read, double shift);
   double value_of(const ReadValue& read) const;
-  TangentDirection along(const ReadValue& read);
-  Eigen::VectorXd unit_x_, unit_y_;
+  TangentDirection along(const ReadValue& read) { return of_called_.along(read); }
 };
 
 }  // namespace saltus

@@ -46,6 +46,7 @@ class IslandTangents {
   bool empty() const { return parameters_.empty(); }
   /// Appends a group of numbers, one for each column of all. Columns of other islands have `other`.
   void append(std::size_t k, const double* values, double other, std::vector<double>& out) const;
+  TangentTrajectory::Part part_of(std::size_t k, const Results& from) const;
   void write_state(std::size_t k, const std::vector<double>& from, Index PlanLeaf::*offset,
                    Index PlanLeaf::*size, std::vector<double>& to) const;
 
@@ -55,6 +56,7 @@ class IslandTangents {
   std::vector<std::string> names_, parameters_;    // as they were given; entry by entry
   std::vector<std::vector<std::size_t>> asked_;    // of each island: the names that belong to it
   std::vector<std::vector<std::size_t>> columns_;  // of each island: its columns among all
+  std::vector<TangentTrajectory::Part> parts_;     // of each island
   double since_ = 0.0;                             // [s]
 };
 

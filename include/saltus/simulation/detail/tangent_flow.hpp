@@ -7,28 +7,10 @@
 
 #include "saltus/plan/detail/flow_graph.hpp"
 #include "saltus/plan/detail/flow_variables.hpp"
-#include "saltus/simulation/detail/tangent_probe.hpp"
+#include "saltus/simulation/detail/flow_chain.hpp"
 #include "saltus/tape/tape.hpp"
 
 namespace saltus {
-
-/// The derivatives by the chosen parameters: a column for each of them. They are those at a time that
-/// moves by `t`: zero for a fixed time, dtau for the instant at tau, or for a fixed time after it.
-struct TangentColumns {
-  Eigen::MatrixXd x, z, y;  ///< of the states, the discrete states and the signals
-  Eigen::RowVectorXd t;
-  std::vector<Index> parameters;  ///< the entry of p that each column is of, or -1
-  Index size() const { return static_cast<Index>(parameters.size()); }
-  /// Whether a parameter may move the state, or the flow at the state.
-  bool matters(Index k) const {
-    return nth(parameters, k) >= 0 || !x.col(k).isZero(0.0) || !z.col(k).isZero(0.0) ||
-           !y.col(k).isZero(0.0);
-  }
-  /// One of them as a direction.
-  TangentDirection column(Index k) const {
-    return {t[k], x.col(k).data(), z.col(k).data(), y.col(k).data(), nth(parameters, k)};
-  }
-};
 
 /// The derivatives of one guard.
 struct GuardTangent {
@@ -37,8 +19,11 @@ struct GuardTangent {
   Eigen::RowVectorXd columns;  ///< dg of each column
 };
 
+/// Turns derivatives at a moving time into those at a fixed time.
+void fix_time(TangentProbe& probe, double t, const double* x, TangentColumns& at);
+
 /// Where all functions of the flow are formulas or traced, its derivatives are exact: expressions
-/// of the plan's graph. Where one of them is called, they are central differences of the whole flow.
+/// of the plan's graph. Where one of them is called, they are those of a FlowChain.
 class TangentFlow {
  public:
   TangentFlow(const Machine& machine, TangentProbe& probe);
@@ -53,6 +38,11 @@ class TangentFlow {
   bool exact() const noexcept { return rates_.has_value(); }
   /// Whether the flow is known not to depend on the time itself.
   bool autonomous() const;
+  /// Why a derivative of the flow was NaN since `forget_obstacle`; empty if no function says.
+  std::string obstacle() const { return exact() ? std::string() : chain_->obstacle(); }
+  void forget_obstacle() {
+    if (chain_) chain_->forget_obstacle();
+  }
   /// In words, for `Simulator::describe`.
   std::string describe() const;
 
@@ -75,19 +65,19 @@ class TangentFlow {
   void evaluate(Partials& of, double t, const double* x);
   void exact_at(double t, const double* x, const TangentColumns& columns, Eigen::MatrixXd& jacobian,
                 Eigen::MatrixXd& by);
-  void differences_at(double t, const double* x, const TangentColumns& columns,
-                      Eigen::MatrixXd& jacobian, Eigen::MatrixXd& by);
+  GuardTangent called_guard(double t, const double* x, Index slot, const TangentColumns& columns);
+  void difference_by_time(double t, const double* x, Index slot, double& by_time);
+  FlowChain& chain();
   GuardTangent exact_guard(double t, const double* x, Index row, const TangentColumns& columns);
 
   const Machine* machine_;
   TangentProbe* probe_;
   FlowVariables variables_;
-  int functions_ = -1;  // of the machine, when the tapes were made
-  std::string obstacle_;
+  int functions_ = -1;              // of the machine, when the tapes were made
+  std::optional<FlowChain> chain_;  // made where a function is called
   bool reads_time_ = true;
   std::optional<Partials> rates_, guards_;
   std::vector<Index> row_of_slot_;  // of `guards_`; -1: the guard is called
-  Eigen::VectorXd unit_;
 };
 
 }  // namespace saltus

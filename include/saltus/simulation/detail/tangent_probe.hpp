@@ -6,16 +6,10 @@
 
 #include "saltus/plan/detail/machine.hpp"
 #include "saltus/simulation/detail/difference_ladder.hpp"
+#include "saltus/simulation/detail/tangent_columns.hpp"
 #include "saltus/simulation/detail/thresholds.hpp"
 
 namespace saltus {
-
-/// How the values of a machine change with one parameter.
-struct TangentDirection {
-  double t = 0.0;                                         ///< of the time
-  const double *x = nullptr, *z = nullptr, *y = nullptr;  ///< null: zero
-  Index parameter = -1;                                   ///< an entry of p that changes by 1
-};
 
 /// A second machine beside that of a run. It takes the values of the run, moved along a direction
 /// to both sides, and so the machine of the run is never touched.
@@ -35,6 +29,10 @@ class TangentProbe {
 
   /// Notes how large the values are, and how long a step is [s].
   void note(const double* x, double step);
+  /// What was noted.
+  const TangentSizes& sizes() const noexcept { return sizes_; }
+  /// Takes what another probe noted.
+  void take(const TangentSizes& sizes) { sizes_ = sizes; }
 
   /// d out along the direction at (t, x). `read(machine, shift, out)` computes `size` numbers on a
   /// machine that is moved; the time and all that the machine does not have it moves by itself. NaN
@@ -66,8 +64,7 @@ class TangentProbe {
 
   const Machine* machine_;
   Machine probe_;
-  Eigen::VectorXd x_sizes_, z_sizes_, y_sizes_;  // the largest of each value so far
-  double step_ = 0.0;                            // [s] the longest so far
+  TangentSizes sizes_;
   MovedValues moved_;
   Eigen::VectorXd centre_;
   bool has_centre_ = false;

@@ -19,7 +19,7 @@ class TangentRows {
   /// A run with the derivatives by these parameters begins.
   void begin(std::vector<std::string> parameters);
   /// The results were moved out: the rows to come are of new ones.
-  void renew() { begin(std::move(results_->sensitivities.parameters)); }
+  void renew() { begin(names_); }
 
   /// Adds a row at (t, x) with these derivatives at a fixed time.
   void add(double t, const double* x, const TangentColumns& at, const OneSided& one_sided);
@@ -29,13 +29,12 @@ class TangentRows {
   void finish(const TangentColumns& at);
 
  private:
-  Eigen::MatrixXd differences(double t, const double* x, const TangentColumns& at);
-
   const Machine* machine_;
   const SimulatorOptions* options_;
   TangentProbe* probe_;
   TangentGaps* gaps_;
   Results* results_;
+  std::vector<std::string> names_;
 };
 
 }  // namespace saltus

@@ -39,8 +39,8 @@ class Tangents {
   void require_fits(const Context& start) const;
   /// A run begins at these values; the machine has them, and its held signals, already.
   void begin(const Context& start);
-  /// The results were moved out: the rows to come are of new ones.
-  void renew() { rows_.renew(); }
+  /// The results were moved out: what is to come is of new ones.
+  void renew();
 
   /// A step was accepted.
   void step(double from, double to, Integration& integration);
@@ -84,17 +84,21 @@ class Tangents {
   std::string cause() const { return cause_.value_or(""); }
   void begin_signals(const Context& start);
   void clear_truths();
+  void call_declared(const Transition::Call& call, const DerivativesFunction& derivatives,
+                     const double* x_next, const double* z_next, int mode);
   void merge(const MovedTime& moved, bool first);
+  /// Dense output begins here.
+  void open_trajectory();
   void lose(Index k, const std::string& event, const std::string& reason) {
     gaps_.lose(t_, k, event, reason);
   }
+  void solve(double from, double to, Integration& integration);
   void look_for_jump(double from, double to, const FlowJumps::StateAt& state);
-  void fix_time(double t, const double* x, TangentColumns& at);
 
   const Machine* machine_;
   const GuardSet* guards_;
   const SimulatorOptions* options_;
-  const Results* results_;
+  Results* results_;
   TangentProbe probe_;
   TangentFlow flow_;
   FlowJumps jumps_;

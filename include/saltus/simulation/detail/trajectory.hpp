@@ -73,6 +73,8 @@ class Trajectory {
   /// Bytes of the values it keeps.
   std::size_t memory() const noexcept;
 
+  /// Throws ModelError for a run without dense output.
+  void require_kept() const;
   /// Throws ModelError for a time outside the run: nothing is extrapolated.
   void require_inside(double t) const;
   Spot spot(double t, Side side) const;

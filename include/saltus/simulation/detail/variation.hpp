@@ -25,6 +25,13 @@ class Variation {
     Eigen::MatrixXd atol;  ///< of each entry of S
   };
 
+  /// S from `from` to `to` [s]: the polynomial through its values at the begin and at the points.
+  struct Piece {
+    double from, to;
+    std::vector<Eigen::MatrixXd> s;
+    Eigen::MatrixXd at(double t) const;
+  };
+
   explicit Variation(Tolerances tolerances);
 
   /// Advances S from `from` to `to` [s], and keeps its values in between.
@@ -33,12 +40,10 @@ class Variation {
   void forget() { pieces_.clear(); }
   /// S at a time within the steps since `forget`; false if there were none around it.
   bool at(double t, Eigen::MatrixXd& s) const;
+  /// The values in between: one polynomial after the other.
+  const std::vector<Piece>& pieces() const noexcept { return pieces_; }
 
  private:
-  struct Piece {
-    double from, to;                 // [s]
-    std::vector<Eigen::MatrixXd> s;  // at the begin and at the points
-  };
   /// How often a step was divided, and the error of the piece before the last time [tolerances].
   struct Halving {
     int depth = 0;
