@@ -2,6 +2,7 @@
 #include "saltus/plan/islands.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -49,7 +50,9 @@ class Finder {
       if (blocks_.live[i]) sets_.enliven(i);
     join_wires();
     join_queue();
+    join_event_wires();
     collect();
+    collect_event_wires();
   }
 
   Islands take() { return std::move(found_); }
@@ -99,6 +102,23 @@ class Finder {
     }
     if (queued.size() < 2) return;
     join(queued, queued.front(), "the queue of executions");
+  }
+
+  void join_event_wires() {
+    std::map<std::pair<int, int>, std::vector<int>> sources;  // of each event input
+    for (const EventWire& wire : plan_.event_wires.declared)
+      sources[{wire.to, wire.input}].push_back(wire.from);
+    for (const auto& [to, from] : sources) {
+      const PlanLeaf& of = leaf(to.first);
+      join(from, to.first, text(of.path, ".", of.declared().event_inputs[to.second].name));
+    }
+  }
+
+  void collect_event_wires() {
+    const auto& wires = plan_.event_wires.declared;
+    if (!wires.empty()) found_.event_wires.resize(found_.count());
+    for (std::size_t i = 0; i < wires.size(); ++i)
+      nth(found_.event_wires, found_.of_leaf[wires[i].from]).push_back(static_cast<int>(i));
   }
 
   void collect() {
