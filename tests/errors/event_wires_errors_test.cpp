@@ -25,10 +25,9 @@ TEST_CASE("unknown events and event inputs are answered with the nearest name", 
         "'fire'");
   CHECK(contains(refusal([](Network& net) { net.wire("a", "fire", "b", "synapses"); }),
                  "block 'b' has no event input 'synapses'; did you mean 'synapse'?"));
-  CHECK(contains(refusal([](Network& net) {
-          net.blocks.at("a")->event_output("fire", 1);
-        }),
-                 "block 'a': event 'fire' has 1 entry; expected the number of one, 0 to 0, found 1"));
+  CHECK(
+      contains(refusal([](Network& net) { net.blocks.at("a")->event_output("fire", 1); }),
+               "block 'a': event 'fire' has 1 entry; expected the number of one, 0 to 0, found 1"));
 }
 
 TEST_CASE("weights and delays have to be finite, and delays not negative", "[errors]") {
@@ -47,13 +46,13 @@ TEST_CASE("weights and delays have to be finite, and delays not negative", "[err
 TEST_CASE("a wire to a block outside of the diagram is refused", "[errors]") {
   const Leaf other = cell("other", 1.0);
   CHECK(contains(refusal([&](Network& net) {
-          net.builder.connect_event(net.blocks.at("a")->event_output("fire"),
-                                    other.event_input("synapse"));
-        }),
+                   net.builder.connect_event(net.blocks.at("a")->event_output("fire"),
+                                             other.event_input("synapse"));
+                 }),
                  "block 'other' was not added to this diagram"));
   CHECK(contains(refusal([&](Network& net) {
-          net.builder.connect_event({}, net.blocks.at("a")->event_input("synapse"));
-        }),
+                   net.builder.connect_event({}, net.blocks.at("a")->event_input("synapse"));
+                 }),
                  "the port belongs to no block"));
 }
 
@@ -63,16 +62,17 @@ TEST_CASE("several entries of which none is named are refused", "[errors]") {
   net.add(Leaf("many", [](Leaf& l) {
     l.declare_event_input({.name = "in", .reset_map = [](const At&, Delivery&) {}, .size = 3});
   }));
-  const std::string found =
-      message<ModelError>([&] { net.wire("beats", "beat", "many", "in"); });
-  CHECK(contains(found, "block 'many': event input 'in' has 3 entries; expected the number of one, "
-                        "0 to 2, found none"));
+  const std::string found = message<ModelError>([&] { net.wire("beats", "beat", "many", "in"); });
+  CHECK(contains(found,
+                 "block 'many': event input 'in' has 3 entries; expected the number of one, "
+                 "0 to 2, found none"));
 }
 
 TEST_CASE("declarations of event inputs are checked", "[errors]") {
   const auto declared = [](EventInputDeclaration input) {
     return message<ModelError>([&] {
-      const Leaf leaf("leaf", [&](Leaf& l) { l.declare_event_input(input), l.declare_event_input(input); });
+      const Leaf leaf("leaf",
+                      [&](Leaf& l) { l.declare_event_input(input), l.declare_event_input(input); });
     });
   };
   const DeliveryMap map = [](const At&, Delivery&) {};
@@ -94,9 +94,9 @@ TEST_CASE("a delivery that sets a state that is not finite names block, input an
   }));
   net.wire("beats", "beat", "cell", "in");
   const Diagram diagram = net.builder.build();
-  CHECK(contains(message<SimulationError>(
-                     [&] { simulate(diagram, diagram.create_context(), {0.0, 2.0}); }),
-                 "t = 1 s: 'cell.in' set a state that is not finite"));
+  CHECK(contains(
+      message<SimulationError>([&] { simulate(diagram, diagram.create_context(), {0.0, 2.0}); }),
+      "t = 1 s: 'cell.in' set a state that is not finite"));
 }
 
 TEST_CASE("sensitivity refuses event wires by name", "[errors]") {
@@ -105,8 +105,9 @@ TEST_CASE("sensitivity refuses event wires by name", "[errors]") {
   net.wire("a", "fire", "b", "synapse");
   const Diagram diagram = net.builder.build();
   CHECK(contains(message<ModelError>([&] {
-          simulate(diagram, diagram.create_context(), {0.0, 2.0}, {.sensitivity = {"a.x[0]"}});
-        }),
+                   simulate(diagram, diagram.create_context(), {0.0, 2.0},
+                            {.sensitivity = {"a.x[0]"}});
+                 }),
                  "an event wire leads to block 'b', and deliveries have no derivative here"));
 }
 

@@ -13,15 +13,15 @@ inline Leaf cell(const std::string& name, double current, double start = 0.0) {
     l.declare_continuous_state(
         {.initial = vec({start}), .ode = [current](const At& at) { return current - at.x[0]; }});
     l.declare_continuous_state_output("v");
-    l.declare_zero_crossing({.name = "fire",
-                             .guard = [](const At& at) { return at.x[0] - 1.0; },
-                             .reset_map =
-                                 [](const At&, Next& next) { next.set_continuous_state({0.0}); },
-                             .direction = saltus::Direction::negative_then_non_negative,
-                             .zeno_tolerance = 0.0});
-    l.declare_event_input({.name = "synapse", .reset_map = [](const At& at, saltus::Delivery& next) {
-                             next.set_continuous_state({at.x[0] + next.weight()});
-                           }});
+    l.declare_zero_crossing(
+        {.name = "fire",
+         .guard = [](const At& at) { return at.x[0] - 1.0; },
+         .reset_map = [](const At&, Next& next) { next.set_continuous_state({0.0}); },
+         .direction = saltus::Direction::negative_then_non_negative});
+    l.declare_event_input(
+        {.name = "synapse", .reset_map = [](const At& at, saltus::Delivery& next) {
+           next.set_continuous_state({at.x[0] + next.weight()});
+         }});
   });
 }
 

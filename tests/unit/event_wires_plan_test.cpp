@@ -1,6 +1,6 @@
 // Event wires in a plan: sorted by source and delay, joined to islands, described.
-#include "saltus/plan/detail/event_wiring.hpp"
 #include "saltus/plan/compile.hpp"
+#include "saltus/plan/detail/event_wiring.hpp"
 #include "saltus/plan/islands.hpp"
 #include "support/cells.hpp"
 

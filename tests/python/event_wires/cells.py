@@ -8,7 +8,7 @@ TAU = 0.02  # [s]
 
 
 class Cell(saltus.LeafSystem):
-    """Each delivery adds its weight to v. With `refractory` it does nothing for that long."""
+    """Each delivery adds its weight to v."""
 
     def __init__(self, name, current, v=0.0, tau=TAU):
         super().__init__(name=name)
@@ -16,9 +16,7 @@ class Cell(saltus.LeafSystem):
         self.declare_dynamic_parameter("tau", tau)
         self.declare_continuous_state([v], ode=self.ode)
         self.declare_continuous_state_output("v")
-        self.declare_zero_crossing(
-            self.below, self.reset, name="fire", direction="rising", zeno_tolerance=0.0
-        )
+        self.declare_zero_crossing(self.below, self.reset, name="fire", direction="rising")
         self.declare_event_input(self.receive, name="synapse")
 
     def ode(self, time, state, current, tau):

@@ -12,7 +12,7 @@ END = 0.02  # [s]
 
 
 def draw():
-    random = np.random.default_rng(7)
+    random = np.random.default_rng(9)
     currents = random.uniform(1.5, 3.0, N) / TAU  # v' at the threshold is at least 0.5 / TAU
     start = random.uniform(0.0, 1.0, N)
     targets = np.array([random.choice(N, TARGETS, replace=False) for _ in range(N)])
@@ -38,12 +38,15 @@ def reference(currents, v, targets, weights):
         v = rest + (v - rest) * np.exp(-(now - t) / TAU)
         t = now
         fired = [cell]
-        if arrival <= now:
-            _, source = heapq.heappop(queue)
-            reached = targets[source]
-            v[reached] += weights[source]
+        if arrival <= now:  # all that arrive at one time, and then the threshold
+            reached = set()
+            while queue and queue[0][0] == now:
+                _, source = heapq.heappop(queue)
+                v[targets[source]] += weights[source]
+                reached.update(targets[source].tolist())
+            reached = sorted(reached)
             margin = min(margin, np.abs(v[reached] - 1.0).min())
-            fired = [int(k) for k in reached if v[k] >= 1.0]
+            fired = [k for k in reached if v[k] >= 1.0]
         for k in fired:
             v[k] = 0.0
             spikes.append((t, k))
@@ -70,7 +73,7 @@ def test_spikes_of_a_thousand_cells_are_those_of_exact_propagation():
     """
     drawn = draw()
     spikes, margin = reference(*drawn)
-    assert len(spikes) > N and margin > 1e-7
+    assert len(spikes) > N and margin > 5e-6
     results = saltus.simulate(network(*drawn), time_span=(0.0, END), rtol=1e-8, atol=1e-9)
     assert len(results.events) == len(spikes)
     for k in range(N):

@@ -18,7 +18,7 @@ def pair():
     return wired(Cell("a", CURRENT), Cell("b", 0.0), wires=WIRES)
 
 
-@pytest.mark.parametrize("python", ["auto", "called"])
+@pytest.mark.parametrize("python", ["traced", "called"])
 @pytest.mark.parametrize("method", METHODS)
 def test_a_pair_of_cells_by_its_closed_form(method, python):
     """Spikes at k T; v of the second jumps by w exactly `delay` later, and decays with tau.
@@ -26,6 +26,8 @@ def test_a_pair_of_cells_by_its_closed_form(method, python):
     The tolerance: a spike time is wrong by the error of v, some 1e-9, over v' = 50 / s, for each
     period so far; 1e-8 is a hundred times that.
     """
+    if method == "taylor" and python == "called":
+        pytest.skip("taylor needs a traced derivative")
     scene = pair()
     end = 0.05
     results = saltus.simulate(
@@ -51,7 +53,7 @@ def test_the_reset_map_is_traced():
     assert "called" not in str(pair().explain())
 
 
-@pytest.mark.parametrize("python", ["auto", "called"])
+@pytest.mark.parametrize("python", ["traced", "called"])
 def test_inputs_weight_and_parameters_in_their_order(python):
     class Sum(saltus.LeafSystem):
         def __init__(self):
@@ -89,7 +91,7 @@ def test_inputs_weight_and_parameters_in_their_order(python):
     assert end.discrete_state.tolist() == z.tolist()
 
 
-@pytest.mark.parametrize("python", ["auto", "called"])
+@pytest.mark.parametrize("python", ["traced", "called"])
 def test_a_vector_of_cells_wires_its_own_guards_to_its_own_entries(python):
     n = 4
     ring = saltus.LeafSystem(name="ring")
@@ -102,7 +104,6 @@ def test_a_vector_of_cells_wires_its_own_guards_to_its_own_entries(python):
         name="fire",
         direction="rising",
         size=n,
-        zeno_tolerance=0.0,
     )
     ring.declare_event_input(
         lambda t, s, weight: s.continuous_state + weight * (np.arange(n) == s.entry),
@@ -123,7 +124,7 @@ def test_a_vector_of_cells_wires_its_own_guards_to_its_own_entries(python):
     np.testing.assert_allclose(times, period(CURRENT) + 0.001 * np.arange(n), atol=1e-9)
 
 
-@pytest.mark.parametrize("python", ["auto", "called"])
+@pytest.mark.parametrize("python", ["traced", "called"])
 def test_a_mode_entered_by_an_event(python):
     lamp = saltus.LeafSystem(name="lamp")
     lamp.declare_default_mode(0)
@@ -212,18 +213,19 @@ def test_an_endless_cascade_is_an_error_that_names_the_events():
 
 
 def test_what_a_called_reset_map_writes_is_seen_by_other_callbacks():
-    """A delivery that counts in an attribute, and a guard of the same block that reads it."""
-    block = saltus.LeafSystem(name="block")
+    """A delivery that counts in a list, and an ode of another block that reads it."""
     seen = []
-    block.declare_continuous_state([0.0], ode=lambda t, s: [1.0 + len(seen)])
-    block.declare_event_input(lambda t, s, weight: (seen.append(weight), s)[1], name="note")
-    diagram = wired(Beats(1.0), block, wires=[("beats.beat", "block.note", 7.0)])
-    end = saltus.simulate(diagram, time_span=(0.0, 2.0)).context
+
+    def note(time, state, weight):
+        seen.append(weight)
+        return state.discrete_state + weight
+
+    writer, reader = saltus.LeafSystem(name="writer"), saltus.LeafSystem(name="reader")
+    writer.declare_discrete_state([0.0])
+    writer.declare_event_input(note, name="note")
+    reader.declare_continuous_state([0.0], ode=lambda t, s: [1.0 + len(seen)])
+    reader.declare_periodic_update(lambda t, s: s.continuous_state, period=1.0)  # restarts
+    diagram = wired(Beats(0.5), writer, reader, wires=[("beats.beat", "writer.note", 7.0)])
+    end = saltus.simulate(diagram, time_span=(0.0, 2.0), max_minor_step_size=0.5).context
     assert seen == [7.0]
-    assert end.continuous_state[0] == pytest.approx(
-        saltus.simulate(
-            wired(Beats(1.0), block, wires=[]), time_span=(0.0, 2.0), python="called"
-        ).context.continuous_state[0]
-        - 1.0,
-        abs=1e-3,
-    )
+    assert end.continuous_state[0] == pytest.approx(0.5 + 2.0 * 1.5, abs=1e-3)

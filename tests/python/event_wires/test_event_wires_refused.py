@@ -1,11 +1,12 @@
 """What event wires refuse, and the words of it."""
 
 import math
+import re
 
 import pytest
 import saltus
 from cells import Beats, Cell, Digits, wired
-from saltus.library import EnabledSubsystem, Pulse
+from saltus.library import Pulse
 
 
 def builder_of(*blocks):
@@ -49,7 +50,7 @@ def test_ports_of_the_wrong_kind():
 
 def test_a_block_of_another_diagram():
     builder, other = builder_of(Cell("a", 100.0)), Cell("other", 0.0)
-    with pytest.raises(saltus.BuilderError, match="block 'other' was not added to this diagram"):
+    with pytest.raises(saltus.ModelError, match="block 'other' was not added to this diagram"):
         builder.connect_event("a.fire", other.event_input("synapse"))
 
 
@@ -65,7 +66,7 @@ def test_an_entry_that_is_missing_or_beyond():
         many.event_input("in", 1.5)
 
 
-@pytest.mark.parametrize("python", ["auto", "called"])
+@pytest.mark.parametrize("python", ["traced", "called"])
 def test_a_result_of_the_wrong_length(python):
     block = saltus.LeafSystem(name="block")
     block.declare_discrete_state([0.0, 0.0])
@@ -96,13 +97,13 @@ def test_declarations():
 
 
 def test_a_block_that_a_control_signal_executes():
-    builder = builder_of(Beats(1.0), Digits(), Pulse(period=2.0, name="pulse"))
+    digits = Digits()
+    builder = builder_of(Beats(1.0), digits, Pulse(period=2.0, name="pulse"))
     builder.connect_event("beats.beat", "digits.digit")
-    builder.execute(builder._children["digits"], "pulse.out")
+    builder.execute(digits, "pulse.out")
     diagram = builder.build()
     with pytest.raises(saltus.ModelError, match="block 'digits': an event wire starts or ends"):
         saltus.simulate(diagram, time_span=(0.0, 2.0))
-    assert EnabledSubsystem is not None
 
 
 def test_sensitivity_is_refused_by_name():
@@ -119,4 +120,4 @@ def test_a_context_with_deliveries_of_another_system():
     with pytest.raises(saltus.ModelError, match="no event wire with a delay of 5 s"):
         saltus.simulate(other, forged, (2.0, 9.0))
     with pytest.raises(saltus.ModelError, match="a delivery with a delay of -5 s"):
-        scene.context_from_json(cut.to_json().replace('"delay":5.0', '"delay":-5.0'))
+        scene.context_from_json(re.sub(r'("delay": ?)5\.0', r"\g<1>-5.0", cut.to_json()))
