@@ -281,7 +281,6 @@ class DiagramBuilder:
         >>> counter.declare_event_input(
         ...     lambda t, s, weight: s.with_discrete_state(s.discrete_state + weight), name="count"
         ... )
-        0
         >>> builder = saltus.DiagramBuilder()
         >>> builder.add(bell, counter)
         (<LeafSystem 'bell'>, <LeafSystem 'counter'>)
@@ -350,7 +349,6 @@ class DiagramBuilder:
         --------
         >>> cell = saltus.LeafSystem(name="cell")
         >>> cell.declare_event_input(lambda t, s, weight: s, name="synapse")
-        0
         >>> builder = saltus.DiagramBuilder()
         >>> builder.add(cell)
         <LeafSystem 'cell'>

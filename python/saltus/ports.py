@@ -221,7 +221,6 @@ class EventInputPort:
     --------
     >>> cells = saltus.LeafSystem(name="cells")
     >>> cells.declare_event_input(lambda t, s, weight: s, name="synapse", size=3)
-    0
     >>> cells.event_input("synapse", 2)
     <event input 'synapse[2]' of 'cells'>
     """

@@ -180,7 +180,6 @@ class System:
         --------
         >>> cell = saltus.LeafSystem(name="cell")
         >>> cell.declare_event_input(lambda t, s, weight: s, name="synapse")
-        0
         >>> cell.event_input("synaps")
         Traceback (most recent call last):
             ...

@@ -10,17 +10,21 @@ namespace saltus::detail {
 
 namespace {
 
-/// Throws ModelError for an end of a wire in a part that is executed as a control signal says.
-void require_uncontrolled(const Plan& plan, const Structure& structure, int leaf) {
-  for (const Structure::Controlled& part : structure.controlled) {
-    const auto number = static_cast<std::size_t>(leaf);
-    if (number < part.first || number >= part.last) continue;
-    throw ModelError(
-        text("block '", plan.leaf(leaf).path,
-             "': an event wire starts or ends at it, and a control signal executes it; "
-             "expected a block outside of every EnabledSubsystem and "
-             "TriggeredSubsystem, so keep it out, or let its reset map read the signal"));
-  }
+/// Of each leaf: whether it is in a part that is executed as a control signal says.
+List<char> controlled_leaves(const Plan& plan, const Structure& structure) {
+  List<char> controlled(plan.leaves.size(), 0);
+  for (const Structure::Controlled& part : structure.controlled)
+    std::fill(controlled.begin() + static_cast<std::ptrdiff_t>(part.first),
+              controlled.begin() + static_cast<std::ptrdiff_t>(part.last), char{1});
+  return controlled;
+}
+
+[[noreturn]] void throw_controlled(const PlanLeaf& leaf) {
+  throw ModelError(
+      text("block '", leaf.path,
+           "': an event wire starts or ends at it, and a control signal executes it; "
+           "expected a block outside of every EnabledSubsystem and "
+           "TriggeredSubsystem, so keep it out, or let its reset map read the signal"));
 }
 
 /// The groups of zero crossings, which come first.
@@ -47,10 +51,12 @@ void add_event_wires(Plan& plan, const Structure& structure, const LeafNumbers& 
   const auto number = [&](const LeafEvent& event) {
     return static_cast<int>(numbers.find(event.leaf).value());
   };
+  const List<char> controlled = controlled_leaves(plan, structure);
   plan.event_wires.declared.reserve(structure.event_wires.size());
   for (const Structure::EventWire& wire : structure.event_wires) {
     const int from = number(wire.from), to = number(wire.to);
-    for (const int end : {from, to}) require_uncontrolled(plan, structure, end);
+    for (const int end : {from, to})
+      if (controlled[end]) throw_controlled(plan.leaf(end));
     plan.event_wires.declared.push_back({from, wire.from.index, wire.from_entry, to, wire.to.index,
                                          wire.to_entry, wire.weight, wire.delay});
   }

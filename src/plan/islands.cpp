@@ -110,8 +110,7 @@ class Finder {
       sources[{wire.to, wire.input}].push_back(wire.from);
     for (const auto& [to, from] : sources) {
       const PlanLeaf& of = leaf(to.first);
-      join(from, to.first, text(of.path, ".", of.declared().event_inputs[to.second].name),
-           true);
+      join(from, to.first, text(of.path, ".", of.declared().event_inputs[to.second].name), true);
     }
   }
 

@@ -21,7 +21,6 @@ ELSEWHERE = {
     "plan/detail/arguments": None,
     "plan/detail/calls": None,
     "plan/detail/controls": "unit/library_subsystems_test.cpp",
-    "plan/detail/event_wiring": "unit/event_wires_plan_test.cpp",
     "plan/detail/fixed_inputs": "unit/evaluate_test.cpp",
     "plan/detail/flow_divisors": "laws/poles_test.cpp",
     "plan/detail/flow_graph": "unit/series_kinks_test.cpp",

@@ -73,7 +73,7 @@ TEST_CASE("3.19 deliveries of one pass follow each other in the order of their w
           "[semantics]") {
   // Three beats at one time, with delays that end at one time, and wires declared in mixed order.
   Network net;
-  net.add(beats("a", {1.0})), net.add(beats("b", {1.0, 0.75})), net.add(digits("digits"));
+  net.add(beats("a", {1.0})), net.add(beats("b", {0.75, 1.0})), net.add(digits("digits"));
   net.wire("b", "beat", "digits", "digit", 1.0, 0.25);
   net.wire("a", "beat", "digits", "digit", 2.0, 0.25);
   net.wire("a", "beat", "digits", "digit", 3.0);

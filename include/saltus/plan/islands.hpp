@@ -17,8 +17,8 @@ namespace saltus {
 struct Islands {
   /// A block that joins parts, which without it would be islands.
   struct Join {
-    std::string reader;     ///< "supervisor.total", the name of an output, or of a block
-    bool by_events = false;     ///< through event wires; `reader` is then "block.event_input"
+    std::string reader;      ///< "supervisor.total", the name of an output, or of a block
+    bool by_events = false;  ///< through event wires; `reader` is then "block.event_input"
     std::size_t parts = 0;  ///< the number of parts with a state or an event that it reads; its own
                             ///< part does not count
   };

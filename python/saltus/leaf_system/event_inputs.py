@@ -25,9 +25,9 @@ class DeclaresEventInputs(_core.LeafSystem):
         name: str | None = None,
         size: int = 1,
         requires_inputs: RequiresInputs = True,
-    ) -> int:
+    ) -> None:
         """Declares an input for events of other blocks, to which `DiagramBuilder.connect_event`
-        leads wires. Returns its position.
+        leads wires.
 
         Each delivery of a wire applies `reset_map(time, state, *inputs, weight, **parameters)`,
         which returns x+ from x-, as the reset map of a zero crossing does; `weight` is that of the
@@ -45,7 +45,6 @@ class DeclaresEventInputs(_core.LeafSystem):
         >>> counter.declare_event_input(
         ...     lambda t, s, weight: s.with_discrete_state(s.discrete_state + weight), name="count"
         ... )
-        0
         >>> builder = saltus.DiagramBuilder()
         >>> builder.add(bell, counter)
         (<LeafSystem 'bell'>, <LeafSystem 'counter'>)
@@ -54,6 +53,6 @@ class DeclaresEventInputs(_core.LeafSystem):
         >>> saltus.simulate(diagram, time_span=(0.0, 3.75)).context.discrete_state
         array([8.])
         """
-        return super().declare_event_input(
+        super().declare_event_input(
             callback_of(reset_map), name or "", size, inputs_of(requires_inputs)
         )

@@ -194,6 +194,32 @@ def test_islands_are_joined_by_event_wires():
     assert "joined by 'b.synapse'" in saltus.Simulator(scene, islands=True).describe()
 
 
+@pytest.mark.parametrize("e", [0.0, 0.5])
+@pytest.mark.parametrize("method", METHODS)
+def test_a_ball_at_rest_is_kicked(method, e):
+    """It rests by 5 s, flies with v = g / 2 from there, and is kicked again at the top of its flight,
+    g / 8 high, 0.5 s later: then y = g (1 / 8 + s / 2 - s^2 / 2). Two flights of parabolas are exact
+    but for the tolerance of some 1e-5.
+    """
+    g = 9.81
+    ball = saltus.LeafSystem(name="ball")
+    ball.declare_continuous_state([1.0, 0.0], ode=lambda t, s: [s.continuous_state[1], -g])
+    ball.declare_zero_crossing(
+        lambda t, s: s.continuous_state[0],
+        lambda t, s: [0.0, -e * s.continuous_state[1]],
+        name="bounce",
+        direction="falling",
+    )
+    ball.declare_event_input(
+        lambda t, s, weight: s.continuous_state + np.array([0.0, weight]), name="kick"
+    )
+    diagram = wired(Beats(5.0, 5.5), ball, wires=[("beats.beat", "ball.kick", g / 2)])
+    results = saltus.simulate(diagram, time_span=(0.0, 6.2), ode_solver_method=method)
+    y = g * (1 / 8 + 0.7 / 2 - 0.7**2 / 2)
+    assert results.context.continuous_state[0] == pytest.approx(y, abs=2e-5)
+    assert [ev.time for ev in results.events if ev.kind == "zeno_release"] == [5.0]
+
+
 def test_a_chain_of_cells_fires_in_one_instant():
     n = 30
     cells = [Cell(f"c{k}", 0.0) for k in range(n)]
