@@ -249,8 +249,8 @@ class DiagramBuilder:
         weight: float = 1.0,
         delay: float = 0.0,
     ) -> None:
-        """A wire from an event of one block to an event input of another, or of the same: each firing
-        of the event applies the reset map of the input.
+        """A wire from an event of one block to an event input of another, or of the same: each
+        firing of the event applies the reset map of the input.
 
         Parameters
         ----------

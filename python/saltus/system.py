@@ -136,8 +136,8 @@ class System:
         return OutputPort(self, _core.System.find_output(self, key_of(port)))
 
     def event_output(self, event: str, entry: int | None = None) -> EventOutputPort:
-        """One event from which event wires may start: a zero crossing or a time event of a block, or
-        what a diagram exports.
+        """One event from which event wires may start: a zero crossing or a time event of a block,
+        or what a diagram exports.
 
         Parameters
         ----------
@@ -183,7 +183,7 @@ class System:
         >>> cell.event_input("synaps")
         Traceback (most recent call last):
             ...
-        saltus.errors.ModelError: block 'cell' has no event input 'synaps'; did you mean 'synapse'? ...
+        saltus.errors.ModelError: block 'cell' has no event input 'synaps'; did you mean ...
         """
         name, place = _event_of("event_input", port, entry)
         return EventInputPort(self, _core.System.find_event_input(self, name, place), place)

@@ -1,4 +1,4 @@
-"""A network of integrate-and-fire cells against an event-driven reference with exact propagation."""
+"""A network of integrate-and-fire cells against a reference with exact propagation."""
 
 import heapq
 
@@ -60,16 +60,17 @@ def network(currents, start, targets, weights):
     sources = [cell.event_output("fire") for cell in cells]
     synapses = [cell.event_input("synapse") for cell in cells]
     for k, source in enumerate(sources):
-        for target, weight in zip(targets[k], weights[k]):
+        for target, weight in zip(targets[k], weights[k], strict=True):
             builder.connect_event(source, synapses[target], weight, DELAY)
     return builder.build()
 
 
 def test_spikes_of_a_thousand_cells_are_those_of_exact_propagation():
-    """The engine's v is wrong by 1e-8, some ten times atol, since the last spike of a cell. Its spike
-    time is then wrong by 1e-8 TAU / 0.5, and each spike of another cell moves v by w times that over
-    TAU, at most 1e-9 for each. A few generations of spikes double it: 1e-7 s is far above. The order
-    of spikes is that of the reference if no jump ends as close to the threshold as the error of v.
+    """The engine's v is wrong by 1e-8, some ten times atol, since the last spike of a cell. Its
+    spike time is then wrong by 1e-8 TAU / 0.5, and each spike of another cell moves v by w times
+    that over TAU, at most 1e-9 for each. A few generations of spikes double it: 1e-7 s is far
+    above. The order of spikes is that of the reference if no jump ends as close to the threshold
+    as the error of v.
     """
     drawn = draw()
     spikes, margin = reference(*drawn)

@@ -76,7 +76,7 @@ def test_inputs_weight_and_parameters_in_their_order(python):
             return state.discrete_state + v * weight
 
     builder = saltus.DiagramBuilder()
-    beats, total = builder.add(Beats(1.0, 2.0), Sum())
+    _, total = builder.add(Beats(1.0, 2.0), Sum())
     total.input("u").fix_value(0.5)
     total.input("v").fix_value(0.25)
     builder.connect_event("beats.beat", "sum.all", weight=3.0)
@@ -197,9 +197,9 @@ def test_islands_are_joined_by_event_wires():
 @pytest.mark.parametrize("e", [0.0, 0.5])
 @pytest.mark.parametrize("method", METHODS)
 def test_a_ball_at_rest_is_kicked(method, e):
-    """It rests by 5 s, flies with v = g / 2 from there, and is kicked again at the top of its flight,
-    g / 8 high, 0.5 s later: then y = g (1 / 8 + s / 2 - s^2 / 2). Two flights of parabolas are exact
-    but for the tolerance of some 1e-5.
+    """It rests by 5 s, flies with v = g / 2 from there, and is kicked again at the top of its
+    flight, g / 8 high, 0.5 s later: then y = g (1 / 8 + s / 2 - s^2 / 2). Two flights of parabolas
+    are exact but for the tolerance of some 1e-5.
     """
     g = 9.81
     ball = saltus.LeafSystem(name="ball")

@@ -58,9 +58,9 @@ def test_an_entry_that_is_missing_or_beyond():
     many = saltus.LeafSystem(name="many")
     many.declare_event_input(lambda t, s, weight: s, name="in", size=3)
     builder = builder_of(Beats(1.0), many)
-    with pytest.raises(saltus.ModelError, match="has 3 entries.* 0 to 2, found none"):
+    with pytest.raises(saltus.ModelError, match=r"has 3 entries.* 0 to 2, found none"):
         builder.connect_event("beats.beat", "many.in")
-    with pytest.raises(saltus.ModelError, match="has 3 entries.* 0 to 2, found 3"):
+    with pytest.raises(saltus.ModelError, match=r"has 3 entries.* 0 to 2, found 3"):
         many.event_input("in", 3)
     with pytest.raises(saltus.ModelError, match="expected the position or the name of a port"):
         many.event_input("in", 1.5)
