@@ -1,5 +1,6 @@
 """Event wires between Python blocks, by closed forms."""
 
+import ctypes
 import json
 import math
 import pickle
@@ -255,3 +256,27 @@ def test_what_a_called_reset_map_writes_is_seen_by_other_callbacks():
     end = saltus.simulate(diagram, time_span=(0.0, 2.0), max_minor_step_size=0.5).context
     assert seen == [7.0]
     assert end.continuous_state[0] == pytest.approx(0.5 + 2.0 * 1.5, abs=1e-3)
+
+
+def test_a_compiled_reset_map_reads_the_weight_behind_its_inputs():
+    """u has the inputs that `requires_inputs` names, and then the weight."""
+    doubles = ctypes.POINTER(ctypes.c_double)
+    kind = ctypes.CFUNCTYPE(
+        ctypes.c_int, ctypes.c_double, doubles, doubles, doubles, doubles, ctypes.c_void_p
+    )
+
+    @kind
+    def add(t, x, u, p, out, data):
+        out[0] = x[0] + u[0] + 10.0 * u[1]
+        return 0
+
+    block = saltus.LeafSystem(name="block")
+    block.declare_discrete_state([0.5])
+    for port in ("u", "v"):
+        block.declare_input_port(port)
+    block.declare_event_input(add, name="in", requires_inputs=[1])
+    block.input("u").fix_value(100.0)
+    block.input("v").fix_value(2.0)
+    diagram = wired(Beats(1.0), block, wires=[("beats.beat", "block.in", 3.0)])
+    end = saltus.simulate(diagram, time_span=(0.0, 2.0)).context
+    assert end.discrete_state.tolist() == [32.5]
