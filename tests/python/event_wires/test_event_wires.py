@@ -280,3 +280,16 @@ def test_a_compiled_reset_map_reads_the_weight_behind_its_inputs():
     diagram = wired(Beats(1.0), block, wires=[("beats.beat", "block.in", 3.0)])
     end = saltus.simulate(diagram, time_span=(0.0, 2.0)).context
     assert end.discrete_state.tolist() == [32.5]
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_dense_output_has_both_sides_of_a_delivery(method):
+    """v of the second cell is 0 before its first delivery, and 0.25 after it."""
+    results = saltus.simulate(
+        pair(), time_span=(0.0, 0.02), ode_solver_method=method, dense_output=True
+    )
+    t = results.events.times("a.fire")[0] + 0.003
+    before, after = (results(t, side=side).continuous_state[1] for side in ("left", "right"))
+    assert (before, after) == (0.0, 0.25)
+    later = results(t + 0.001).continuous_state[1]
+    assert later == pytest.approx(0.25 * math.exp(-0.001 / TAU), abs=1e-5)
