@@ -235,6 +235,7 @@ void bind_leaf_system(py::module_& module) {
       .def("declare_zero_crossing", &declare_zero_crossing)
       .def("declare_relation", &declare_relation)
       .def("declare_edge_reset", &declare_edge_reset)
+      .def("declare_event_input", &declare_event_input)
       .def("declare_periodic_update",
            [](py::handle self, py::object callback, double period, double offset,
               const std::string& name) {

@@ -24,6 +24,8 @@ std::vector<std::string> interpreted_blocks(const System& system) {
   return paths;
 }
 
+using Entry = std::optional<Index>;  // of an event
+
 }  // namespace
 
 void bind_system(py::module_& module) {
@@ -41,6 +43,18 @@ void bind_system(py::module_& module) {
            [](const System& system, int index) { return system.output(index).index; })
       .def("find_output",
            [](const System& system, std::string_view name) { return system.output(name).index; })
+      .def_property_readonly("event_output_names", &System::event_output_names)
+      .def_property_readonly("event_input_names", &System::event_input_names)
+      .def("find_event_output",
+           [](const System& system, std::string_view name, Entry entry) {
+             const EventOutputPort port = system.event_output(name, entry);
+             return port.index;
+           })
+      .def("find_event_input",
+           [](const System& system, std::string_view name, Entry entry) {
+             const EventInputPort port = system.event_input(name, entry);
+             return port.index;
+           })
       .def("create_context", &System::create_context);
 
   py::class_<DiagramBuilder>(module, "DiagramBuilder")
@@ -51,6 +65,22 @@ void bind_system(py::module_& module) {
            })
       .def("connect", [](DiagramBuilder& builder, const System& from, int output, const System& to,
                          int input) { builder.connect({&from, output}, {&to, input}); })
+      .def("connect_event",
+           [](DiagramBuilder& builder, const System& from, int event, Entry from_entry,
+              const System& to, int input, Entry to_entry, double weight, double delay) {
+             builder.connect_event({&from, event, from_entry}, {&to, input, to_entry}, weight,
+                                   delay);
+           })
+      .def("export_event_output",
+           [](DiagramBuilder& builder, const System& system, int event, Entry entry,
+              std::string name) {
+             return builder.export_event_output({&system, event, entry}, std::move(name));
+           })
+      .def("export_event_input",
+           [](DiagramBuilder& builder, const System& system, int input, Entry entry,
+              std::string name) {
+             return builder.export_event_input({&system, input, entry}, std::move(name));
+           })
       .def("execute",
            [](DiagramBuilder& builder, const System& block, const System& control, int output,
               std::string_view kind, bool resets, std::string_view edge) {

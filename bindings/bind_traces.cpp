@@ -16,9 +16,9 @@ namespace {
 
 using tape::Tape;
 
-constexpr std::array roles{"ode",        "jacobian",  "sparse_jacobian", "output",
-                           "guard",      "reset_map", "update",          "relation",
-                           "edge_reset", "delay",     "priority",        "derivatives"};
+constexpr std::array roles{"ode",       "jacobian",    "sparse_jacobian", "output",     "guard",
+                           "reset_map", "update",      "relation",        "edge_reset", "delay",
+                           "priority",  "derivatives", "event_input"};
 
 py::tuple as_tuple(const Dimensions& dimensions) { return py::tuple(py::cast(dimensions)); }
 
@@ -57,6 +57,14 @@ py::object result_shape(const BlockTraces& block, const Function& function) {
   return shape.is_matrix() ? py::object(as_tuple(dimensions_of(shape))) : py::object(py::none());
 }
 
+/// The inputs that a function gets. The weight of an event wire comes after all inputs of the block.
+InputList inputs_of(const BlockTraces& block, const Function& function) {
+  InputList inputs = function.inputs;
+  if (inputs && gets_weight(function.role))
+    inputs->push_back(count_of(block.leaf->declarations().inputs));
+  return inputs;
+}
+
 py::dict function_of(const BlockTraces& block, int k) {
   const Function& function = block.leaf->function(k);
   py::dict all;
@@ -64,7 +72,7 @@ py::dict function_of(const BlockTraces& block, int k) {
   all["function"] = function.callable;
   all["method"] = function.method;
   all["convention"] = function.convention;
-  all["inputs"] = function.inputs;
+  all["inputs"] = inputs_of(block, function);
   all["what"] = function.what;
   all["role"] = nth(roles, function.role);
   all["out"] = block.leaf->in_place(function);

@@ -74,6 +74,7 @@ class Reader {
       for (const auto& crossing : leaf.declared().zero_crossings) add(tapes, crossing.reset_map);
       for (const auto& edge : leaf.declared().edge_resets) add(tapes, edge.reset_map);
       for (const auto& event : leaf.declared().time_events) add(tapes, event.update);
+      for (const auto& input : leaf.declared().event_inputs) add(tapes, input.reset_map);
     }
     return tapes;
   }

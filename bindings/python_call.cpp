@@ -93,7 +93,7 @@ std::size_t PythonLeaf::set_inputs(Frame& frame, const Function& function, const
   const bool tuple = function.convention == Convention::inputs;
   if (tuple) frame.inputs_tuple = py::tuple(frame.inputs.size());
   for (std::size_t i = 0; i < frame.inputs.size(); ++i) {
-    set_input(frame.inputs[i], at, function.inputs ? (*function.inputs)[i] : static_cast<int>(i));
+    set_input(frame.inputs[i], at, input_of(function, i, at));
     if (tuple) {
       PyTuple_SET_ITEM(frame.inputs_tuple.ptr(), static_cast<py::ssize_t>(i),
                        frame.inputs[i].inc_ref().ptr());
@@ -124,7 +124,8 @@ std::unique_ptr<Frame> PythonLeaf::new_frame(const Function& function) const {
   auto frame = std::make_unique<Frame>();
   const bool by_state = function.convention == Convention::state;
   const std::size_t inputs =
-      function.inputs ? function.inputs->size() : declarations().inputs.size();
+      (function.inputs ? function.inputs->size() : declarations().inputs.size()) +
+      (gets_weight(function.role) ? 1 : 0);
   frame->inputs.resize(inputs);
   frame->positional = (function.method ? 1U : 0U) + (by_state ? 2U : 0U) +
                       (function.convention == Convention::inputs ? 1U : inputs);
@@ -202,6 +203,7 @@ py::list PythonLeaf::positional(const Function& function) const {
   } else {
     for (const int i : *function.inputs) names.append(ports[i]);
   }
+  if (gets_weight(function.role)) names.append("weight");
   return names;
 }
 

@@ -33,8 +33,10 @@ void PythonLeaf::run_compiled(const Function& function, const At& at, double* ou
   memory.values.push_back(at.mode);
   memory.values.push_back(static_cast<double>(at.entry));
   const std::size_t u = memory.values.size();
-  const int count = function.inputs ? static_cast<int>(function.inputs->size()) : at.u.size();
-  for (int i = 0; i < count; ++i) memory.add(at.u[function.inputs ? (*function.inputs)[i] : i]);
+  const std::size_t listed = function.inputs ? function.inputs->size() : 0;
+  const std::size_t count = !function.inputs ? static_cast<std::size_t>(at.u.size())
+                                             : listed + (gets_weight(function.role) ? 1 : 0);
+  for (std::size_t i = 0; i < count; ++i) memory.add(at.u[input_of(function, i, at)]);
   const int failure = function.compiled(at.time, memory.values.data(), memory.values.data() + u,
                                         at.p.data(), out, function.user_data);
   if (failure == 0) return;

@@ -33,10 +33,14 @@ enum class Role {
   update,
   relation,
   edge_reset,
-  delay,       // of a queued zero crossing
-  priority,    // likewise
-  derivatives  // of another function
+  delay,        // of a queued zero crossing
+  priority,     // likewise
+  derivatives,  // of another function
+  event_input,  // its last input is the weight of the wire
 };
+
+/// Whether the weight of an event wire comes after the inputs.
+inline bool gets_weight(Role role) { return role == Role::event_input; }
 
 /// Whether the sign of its values says on which side of an event the block is.
 inline bool is_guard(Role role) { return role == Role::guard || role == Role::relation; }

@@ -103,6 +103,10 @@ ResetMap PythonLeaf::reset_map(int k) const {
   return [this, k](const At& at, Next& next) { locked([&] { write(k, call(k, at, 0), next); }); };
 }
 
+DeliveryMap PythonLeaf::delivery_map(int k) const {
+  return [this, map = reset_map(k)](const At& at, Delivery& next) { map(*this, at, next); };
+}
+
 namespace {
 
 /// The numbers that a reset map or an update returned in place of a state.

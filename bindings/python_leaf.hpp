@@ -39,6 +39,7 @@ class PythonLeaf final : public LeafSystem {
   using LeafSystem::declare_default_mode;
   using LeafSystem::declare_discrete_state;
   using LeafSystem::declare_edge_reset;
+  using LeafSystem::declare_event_input;
   using LeafSystem::declare_mode_output;
   using LeafSystem::declare_one_shot;
   using LeafSystem::declare_output_port;
@@ -52,8 +53,10 @@ class PythonLeaf final : public LeafSystem {
   const Dimensions& state_dimensions() const { return x_dimensions_; }
   const Dimensions& discrete_dimensions() const { return z_dimensions_; }
   const std::vector<Dimensions>& parameter_dimensions() const { return parameter_dimensions_; }
-  /// Whether input i comes as a float, if the wire has this shape.
+  /// Whether input i comes as a float, if the wire has this shape. The weight of an event wire comes
+  /// after all inputs.
   bool number_input(int i, Index size, Index columns) const {
+    if (i >= count_of(declarations().inputs)) return true;
     const std::optional<Shape>& declared = declarations().inputs[i].shape;
     return declared ? !declared->vector : size == 1 && columns == 0;
   }
@@ -74,6 +77,7 @@ class PythonLeaf final : public LeafSystem {
   ResetMap reset_map(int k) const;
   /// Of a function that saltus.derivatives made: it returns columns for its own inputs only.
   DerivativesFunction derivatives_function(int k) const;
+  DeliveryMap delivery_map(int k) const;
   const std::vector<Function>& functions() const { return functions_; }
   const Function& function(int k) const { return functions_[k]; }
   /// A parameter called `out` is a parameter, not an array to fill.
@@ -117,6 +121,11 @@ class PythonLeaf final : public LeafSystem {
   void set_out(Frame& frame, const Function& function, Index size) const;
   void set_input(py::object& to, const At& at, int i) const;
   bool has_parameter(std::string_view parameter) const;
+  /// The input of the block that a function gets as its i-th one; the weight is the last.
+  static int input_of(const Function& function, std::size_t i, const At& at) {
+    if (!function.inputs) return static_cast<int>(i);
+    return i < function.inputs->size() ? (*function.inputs)[i] : at.u.size() - 1;
+  }
   void forget_frames() {
     for (Function& function : functions_) function.spare.reset();
   }

@@ -46,6 +46,14 @@ class SharedSystem final : public System {
   bool is_inner() const { return inner_; }
   LeafPort output_source(int index) const override { return system_->output_source(index); }
   LeafPort input_target(int index) const override { return system_->input_target(index); }
+  std::vector<std::string> event_output_names() const override {
+    return system_->event_output_names();
+  }
+  std::vector<std::string> event_input_names() const override {
+    return system_->event_input_names();
+  }
+  LeafEvent event_source(int index) const override { return system_->event_source(index); }
+  LeafEvent event_target(int index) const override { return system_->event_target(index); }
 
  private:
   std::shared_ptr<const System> system_;

@@ -93,5 +93,9 @@ std::vector<tape::Tape> tapes_of(const ResetMap& function) {
   if (const auto* traced = function.target<TapedReset>()) return {traced->slot->tape};
   return {};
 }
+std::vector<tape::Tape> tapes_of(const DeliveryMap& function) {
+  if (const auto* traced = function.target<TapedDelivery>()) return {traced->reset.slot->tape};
+  return {};
+}
 
 }  // namespace saltus::python

@@ -39,6 +39,12 @@ struct TapedReset {
   void operator()(const At& at, Next& next) const;
 };
 
+/// The same for the reset map of an event input.
+struct TapedDelivery {
+  TapedReset reset;
+  void operator()(const At& at, Delivery& next) const { reset(at, next); }
+};
+
 /// The same matrix with these entries: zero where it has none, without those it has beyond.
 tape::Jacobian at_places(const tape::Jacobian& jacobian, const std::vector<MatrixEntry>& places);
 
@@ -46,5 +52,6 @@ tape::Jacobian at_places(const tape::Jacobian& jacobian, const std::vector<Matri
 std::vector<tape::Tape> tapes_of(const VectorFunction& function);
 std::vector<tape::Tape> tapes_of(const MatrixFunction& function);
 std::vector<tape::Tape> tapes_of(const ResetMap& function);
+std::vector<tape::Tape> tapes_of(const DeliveryMap& function);
 
 }  // namespace saltus::python

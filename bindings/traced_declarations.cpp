@@ -110,6 +110,13 @@ void DeclarationWriter::put(const Slot& slot) {
       edge.inputs = inputs_of(original_, slot);
       return;
     }
+    case Role::event_input: {
+      EventInputDeclaration& input = declared_.event_inputs[function.index];
+      // The function itself as a reset map: the tape calls it where its own result is not finite.
+      input.reset_map = TapedDelivery{{slot, original_.reset_map(slot->function), &original_}};
+      input.inputs = inputs_of(original_, slot);
+      return;
+    }
   }
 }
 

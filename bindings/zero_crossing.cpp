@@ -172,4 +172,19 @@ void declare_edge_reset(py::handle self, py::object reset_map, int input, std::s
   leaf.declare_edge_reset(std::move(reset));
 }
 
+void declare_event_input(py::handle self, py::object reset_map, std::string name, Index size,
+                         const InputList& inputs) {
+  auto& leaf = self.cast<PythonLeaf&>();
+  const int index = count_of(leaf.declarations().event_inputs);
+  const std::string called = name.empty() ? text("event_in_", index) : name;
+  EventInputDeclaration input{
+      .name = std::move(name), .reset_map = {}, .size = size, .inputs = inputs};
+  input.reset_map = leaf.delivery_map(leaf.add(self, std::move(reset_map),
+                                               {.inputs = inputs,
+                                                .what = text("reset map of '", called, "'"),
+                                                .role = Role::event_input,
+                                                .index = index}));
+  leaf.declare_event_input(std::move(input));
+}
+
 }  // namespace saltus::python

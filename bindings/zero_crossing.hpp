@@ -14,4 +14,8 @@ void declare_zero_crossing(py::handle self, py::object guard, py::object reset_m
 void declare_edge_reset(py::handle self, py::object reset_map, int input, std::string name,
                         const py::dict& options);
 
+/// An input for events of other blocks.
+void declare_event_input(py::handle self, py::object reset_map, std::string name, Index size,
+                         const InputList& inputs);
+
 }  // namespace saltus::python

@@ -28,6 +28,7 @@ from saltus.solving.guard import Guard
 from saltus.solving.solution import Solution
 from saltus.solving.solve import solve
 from saltus.solving.system_of import system_of
+from saltus.ports import EventInputPort, EventOutputPort
 from saltus.system import InputPort, OutputPort, System
 
 if TYPE_CHECKING:
@@ -56,7 +57,9 @@ __all__ = [
     "Equilibria",
     "Error",
     "Event",
+    "EventInputPort",
     "EventLog",
+    "EventOutputPort",
     "EventTimes",
     "Experiment",
     "ExplainedCallback",

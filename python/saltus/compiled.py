@@ -58,7 +58,8 @@ def compiled(function: Any, user_data: Any = None) -> Compiled:
     - `t` is the time [s];
     - `x` is the continuous state, then the discrete state, each in C order, then the mode, then
       the entry (in a reset map: the index of the guard that fired, in a vector of guards);
-    - `u` is the inputs that `requires_inputs` names, one after the other;
+    - `u` is the inputs that `requires_inputs` names, one after the other, and for an event input the
+      weight after them;
     - `p` is all parameters of the block, one after the other, in the order of declaration;
     - `out` is the array to write: the derivatives, the guards, the output (the block has to give
       its `shape`), a Jacobian row by row, the values of a sparse one. For a reset map or an update

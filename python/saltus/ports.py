@@ -15,7 +15,14 @@ from saltus.errors import ModelError
 if TYPE_CHECKING:
     from saltus.system import System
 
-__all__ = ["InputPort", "OutputPort", "core_port", "key_of"]
+__all__ = [
+    "EventInputPort",
+    "EventOutputPort",
+    "InputPort",
+    "OutputPort",
+    "core_port",
+    "key_of",
+]
 
 LARGEST = 2**31 - 1
 """the largest position that the engine can be asked for"""
@@ -162,6 +169,79 @@ class InputPort:
         return f"<input '{self.name}' of '{self.system.name}'>"
 
 
+@dataclass(frozen=True)
+class EventOutputPort:
+    """An event of a system, from which event wires may start. It keeps its system alive.
+
+    Parameters
+    ----------
+    system
+        The system it belongs to.
+    index
+        Its position among the events: the zero crossings come first, then the time events.
+    entry
+        The guard, in a vector of guards.
+
+    Examples
+    --------
+    >>> tank = saltus.LeafSystem(name="tank")
+    >>> tank.declare_continuous_state([0.0], ode=lambda t, s: [1.0])
+    >>> tank.declare_zero_crossing(lambda t, s: s.continuous_state[0] - 1.0, name="full")
+    >>> tank.event_output("full")
+    <event 'full' of 'tank'>
+    """
+
+    system: System
+    index: int
+    entry: int | None = None
+
+    @property
+    def name(self) -> str:
+        """The name of the event in its system."""
+        return self.system.event_output_names[self.index]
+
+    def __repr__(self) -> str:
+        return f"<event '{_with_entry(self)}' of '{self.system.name}'>"
+
+
+@dataclass(frozen=True)
+class EventInputPort:
+    """An input of a system for events, to which event wires may lead. It keeps its system alive.
+
+    Parameters
+    ----------
+    system
+        The system it belongs to.
+    index
+        Its position among the event inputs.
+    entry
+        The entry, of an input of several.
+
+    Examples
+    --------
+    >>> cells = saltus.LeafSystem(name="cells")
+    >>> cells.declare_event_input(lambda t, s, weight: s, name="synapse", size=3)
+    >>> cells.event_input("synapse", 2)
+    <event input 'synapse[2]' of 'cells'>
+    """
+
+    system: System
+    index: int
+    entry: int | None = None
+
+    @property
+    def name(self) -> str:
+        """The name of the input in its system."""
+        return self.system.event_input_names[self.index]
+
+    def __repr__(self) -> str:
+        return f"<event input '{_with_entry(self)}' of '{self.system.name}'>"
+
+
+def _with_entry(port: EventOutputPort | EventInputPort) -> str:
+    return port.name if port.entry is None else f"{port.name}[{port.entry}]"
+
+
 def key_of(port: object) -> int | str:
     """The position or the name by which a port was asked for; ModelError for all else."""
     if isinstance(port, str):
@@ -175,7 +255,9 @@ def key_of(port: object) -> int | str:
     return position
 
 
-def core_port(port: OutputPort | InputPort) -> tuple[System, int]:
+def core_port(
+    port: OutputPort | InputPort | EventOutputPort | EventInputPort,
+) -> tuple[System, int]:
     """The system and the position of a port in the form that the engine takes.
 
     The fields of a port are public, so the position may be anything. The engine refuses a position

@@ -12,7 +12,7 @@ import numpy as np
 from saltus import _core, callbacks
 from saltus.callbacks import Explanation
 from saltus.errors import ModelError
-from saltus.ports import InputPort, OutputPort, key_of
+from saltus.ports import EventInputPort, EventOutputPort, InputPort, OutputPort, key_of
 
 __all__ = ["InputPort", "OutputPort", "System", "remember", "system_of"]
 
@@ -28,6 +28,16 @@ def remember(system: System) -> None:
 def system_of(context: _core.Context) -> System | None:
     """The system whose values a context has, if it still lives and made a context."""
     return _systems.get(context.system_id)
+
+
+def _event_of(where: str, name: object, entry: object) -> tuple[str, int | None]:
+    """The name and the entry of an event; ModelError for other types."""
+    if not isinstance(name, str):
+        raise ModelError(f"{where}: expected the name of an event, found {name!r}")
+    place = None if entry is None else key_of(entry)
+    if isinstance(place, str):
+        raise ModelError(f"{where}: expected the number of an entry, found {entry!r}")
+    return name, place
 
 
 class Count:
@@ -62,6 +72,10 @@ class System:
     """the number for `context[...]`"""
     input_names: list[str]
     output_names: list[str]
+    event_output_names: list[str]
+    """the events from which event wires may start: zero crossings, then time events"""
+    event_input_names: list[str]
+    """the inputs to which event wires may lead"""
     interpreted_blocks: list[str]
     """the paths of the blocks in it whose Python functions a run calls"""
     num_input_ports = Count("input_names", "How many inputs there are.")
@@ -120,6 +134,59 @@ class System:
         saltus.errors.ModelError: block 'gain' has no output 'put'; did you mean 'out'? Known: 'out'
         """
         return OutputPort(self, _core.System.find_output(self, key_of(port)))
+
+    def event_output(self, event: str, entry: int | None = None) -> EventOutputPort:
+        """One event from which event wires may start: a zero crossing or a time event of a block,
+        or what a diagram exports.
+
+        Parameters
+        ----------
+        event
+            Its name.
+        entry
+            The guard, in a vector of guards: each of them is a source of its own.
+
+        Raises
+        ------
+        ModelError
+            If no event has this name; the message lists the names. If it has no such entry.
+
+        Examples
+        --------
+        >>> clock = saltus.LeafSystem(name="clock")
+        >>> clock.declare_periodic_update(None, period=1.0, name="tick")
+        >>> clock.event_output("tick")
+        <event 'tick' of 'clock'>
+        """
+        name, place = _event_of("event_output", event, entry)
+        return EventOutputPort(self, _core.System.find_event_output(self, name, place), place)
+
+    def event_input(self, port: str, entry: int | None = None) -> EventInputPort:
+        """One input for events, by name, as `event_output`.
+
+        Parameters
+        ----------
+        port
+            Its name.
+        entry
+            The entry, of an input of several.
+
+        Raises
+        ------
+        ModelError
+            If no event input has this name; the message lists the names. If it has no such entry.
+
+        Examples
+        --------
+        >>> cell = saltus.LeafSystem(name="cell")
+        >>> cell.declare_event_input(lambda t, s, weight: s, name="synapse")
+        >>> cell.event_input("synaps")
+        Traceback (most recent call last):
+            ...
+        saltus.errors.ModelError: block 'cell' has no event input 'synaps'; did you mean ...
+        """
+        name, place = _event_of("event_input", port, entry)
+        return EventInputPort(self, _core.System.find_event_input(self, name, place), place)
 
     def context_from_json(self, text: str) -> _core.Context:
         """The context that `context.to_json()` wrote, of this system or one of the same blocks.

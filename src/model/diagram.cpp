@@ -26,6 +26,24 @@ LeafPort Diagram::input_target(int index) const {
   return port.system->input_target(port.index);
 }
 
+std::vector<std::string> Diagram::event_output_names() const {
+  return detail::names_of(event_outputs_);
+}
+
+std::vector<std::string> Diagram::event_input_names() const {
+  return detail::names_of(event_inputs_);
+}
+
+LeafEvent Diagram::event_source(int index) const {
+  const EventOutputPort& port = event_outputs_[index].port;
+  return port.system->event_source(port.index);
+}
+
+LeafEvent Diagram::event_target(int index) const {
+  const EventInputPort& port = event_inputs_[index].port;
+  return port.system->event_target(port.index);
+}
+
 const System& Diagram::operator[](std::string_view child) const {
   const auto found = std::ranges::find(children_, child, &Child::name);
   if (found != children_.end()) return *found->system;
@@ -51,6 +69,12 @@ void Diagram::collect(Structure& out, const std::string& path) const {
   for (const Wire& wire : wires_) {
     out.wires.push_back({wire.from.system->output_source(wire.from.index),
                          wire.to.system->input_target(wire.to.index)});
+  }
+  for (const EventWire& wire : event_wires_) {
+    out.event_wires.push_back({wire.from.system->event_source(wire.from.index),
+                               wire.to.system->event_target(wire.to.index),
+                               static_cast<int>(*wire.from.entry), static_cast<int>(*wire.to.entry),
+                               wire.weight, wire.delay});
   }
   if (parameters_ != nullptr) out.leaves.push_back({parameters_.get(), path});
   out.systems[mine].last = out.leaves.size();

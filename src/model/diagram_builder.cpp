@@ -94,6 +94,9 @@ Diagram DiagramBuilder::build(std::string name) {
   spent_ = true;
   built.children_ = std::move(diagram_.children_);
   built.wires_ = std::move(diagram_.wires_);
+  built.event_wires_ = std::move(diagram_.event_wires_);
+  built.event_outputs_ = std::move(diagram_.event_outputs_);
+  built.event_inputs_ = std::move(diagram_.event_inputs_);
   built.controlled_ = std::move(diagram_.controlled_);
   built.inputs_ = std::move(diagram_.inputs_);
   built.outputs_ = std::move(diagram_.outputs_);

@@ -99,6 +99,23 @@ std::vector<std::string> LeafSystem::output_names() const {
   return detail::names_of(declared_.outputs);
 }
 
+/// The zero crossings come first, then the time events.
+std::vector<std::string> LeafSystem::event_output_names() const {
+  std::vector<std::string> names = detail::names_of(declared_.zero_crossings);
+  for (const TimeEvent& event : declared_.time_events) names.push_back(event.name);
+  return names;
+}
+std::vector<std::string> LeafSystem::event_input_names() const {
+  return detail::names_of(declared_.event_inputs);
+}
+LeafEvent LeafSystem::event_source(int index) const {
+  const auto& crossings = declared_.zero_crossings;
+  return {this, index, index < std::ssize(crossings) ? crossings[index].size : 1};
+}
+LeafEvent LeafSystem::event_target(int index) const {
+  return {this, index, declared_.event_inputs[index].size};
+}
+
 void LeafSystem::collect(Structure& out, const std::string& path) const {
   std::string known_as = path.empty() ? name() : path;
   out.systems.push_back({system_id(), known_as, out.leaves.size(), out.leaves.size() + 1});
@@ -328,6 +345,19 @@ void LeafSystem::declare_time_event(TimeEvent event) {
   if (const std::string fault = event.fault(); !fault.empty())
     throw ModelError(text("block '", name(), "': time event '", event.name, "': ", fault));
   declared_.time_events.push_back(std::move(event));
+}
+
+int LeafSystem::declare_event_input(EventInputDeclaration input) {
+  require_unused();
+  detail::name_it(input.name, declared_.event_inputs, "event_in_", name());
+  input.name =
+      detail::without_dot(std::move(input.name), text("block '", name(), "': event input"));
+  const std::string what = text("block '", name(), "': event input '", input.name, "' ");
+  if (!input.reset_map) throw ModelError(text(what, "has no reset map"));
+  if (input.size < 1)
+    throw ModelError(text(what, "has ", input.size, " entries; expected 1 or more"));
+  declared_.event_inputs.push_back(std::move(input));
+  return static_cast<int>(declared_.event_inputs.size()) - 1;
 }
 
 }  // namespace saltus

@@ -140,6 +140,19 @@ void require_sound(const FrozenValues& values, const Layout::Leaf& leaf) {
           text("an execution of block '", leaf.path, "' with a value that is not finite"));
 }
 
+void require_sound(const std::vector<PendingDelivery>& deliveries, const Layout& layout) {
+  for (const PendingDelivery& one : deliveries) {
+    require(
+        one.leaf >= 0 && one.leaf < std::ssize(layout.leaves) && one.event >= 0 && one.entry >= 0,
+        text("a delivery of block ", one.leaf, " of ", layout.leaves.size()));
+    require(std::isfinite(one.delay) && one.delay > 0.0,
+            text("a delivery with a delay of ", one.delay, " s"));
+    require(std::isfinite(one.due), text("a delivery that is due at ", one.due, " s"));
+  }
+  require(std::ranges::is_sorted(deliveries, {}, &PendingDelivery::due),
+          "deliveries that are not in the order in which they are due");
+}
+
 }  // namespace
 
 void require_sound(const PendingExecutions& pending, const Layout& layout) {
@@ -161,6 +174,7 @@ void require_sound(const PendingExecutions& pending, const Layout& layout) {
     require_sound(one.values, nth(layout.leaves, one.leaf));
     before = &one;
   }
+  require_sound(pending.deliveries, layout);
 }
 
 std::string difference(const Layout& expected, const Layout& found, bool paths) {

@@ -3,6 +3,7 @@
 #include "saltus/base/list.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 #include <unordered_set>
 
@@ -121,15 +122,24 @@ Direction watched_direction(const ZeroCrossing& crossing) {
                                                                    : crossing.direction;
 }
 
+/// The events from which event wires start, by leaf and number.
+std::set<std::pair<int, int>> senders_of(const Plan& plan) {
+  std::set<std::pair<int, int>> senders;
+  for (const EventWire& wire : plan.event_wires.declared) senders.insert({wire.from, wire.event});
+  return senders;
+}
+
 /// Adds zero crossings first, in declaration order, then relations and opaque booleans.
 void add_guards(Plan& plan) {
   StateSearch search(plan);
+  const auto senders = senders_of(plan);
   for (std::size_t l = 0; l < plan.leaves.size(); ++l) {
     const auto& crossings = plan.leaves[l].declared().zero_crossings;
     for (std::size_t i = 0; i < crossings.size(); ++i) {
       const ZeroCrossing& crossing = crossings[i];
       if (crossing.direction == Direction::none) continue;  // never fires: never computed
-      const bool monitor = !crossing.reset_map && !crossing.end_mode && !crossing.terminal;
+      const bool sends = senders.contains({static_cast<int>(l), static_cast<int>(i)});
+      const bool monitor = !crossing.has_effect() && !crossing.terminal && !sends;
       add_guard(plan, search,
                 {.kind = GuardGroup::Kind::crossing,
                  .leaf = static_cast<int>(l),
@@ -138,6 +148,7 @@ void add_guards(Plan& plan) {
                  .direction = watched_direction(crossing),
                  .monitor = monitor,
                  .queued = crossing.is_queued(),
+                 .sends = sends,
                  .name = text(plan.leaves[l].path, ".", crossing.name),
                  .controls = read_inputs(plan.leaves[l].declared().controls, plan.leaves[l])},
                 read_inputs(crossing.inputs, plan.leaves[l]));
@@ -263,6 +274,7 @@ std::shared_ptr<const Plan> detail::completed(Plan plan, const Roots& roots) {
   add_guards(plan);
   add_edges(plan);
   add_schedule(plan);
+  if (plan.event_wires.any()) sort_event_wires(plan);
   add_reads_of_guards(plan);
   fuse(plan);
   plan.series = std::make_shared<Kept<FlowSeries>>();

@@ -49,6 +49,7 @@ void ControlledLeaf::keep_to_own_inputs() {
   for (ZeroCrossing& crossing : declared_.zero_crossings) crossing.inputs = own_or(crossing.inputs);
   for (EdgeReset& reset : declared_.edge_resets) reset.inputs = own_or(reset.inputs);
   for (TimeEvent& event : declared_.time_events) event.inputs = own_or(event.inputs);
+  for (EventInputDeclaration& input : declared_.event_inputs) input.inputs = own_or(input.inputs);
 }
 
 namespace {

@@ -35,6 +35,7 @@ void describe_guard(std::string& out, const Plan& plan, const GuardGroup& guard)
     out +=
         text(to_string(guard.direction), guard.queued    ? ", a trigger: it schedules an execution"
                                          : guard.monitor ? ", a monitor: located, changes nothing"
+                                         : guard.sends   ? ", event wires start from it"
                                                          : "");
   } else if (guard.kind == Kind::relation) {
     out += "a relation, held between instants";
@@ -94,6 +95,9 @@ std::string Plan::describe() const {
   describe_controls(out, *this);
   if (!edges.empty()) out += text("resets that follow an edge: ", edges.size(), "\n");
   if (!schedule.empty()) out += text("time events: ", schedule.size(), "\n");
+  if (event_wires.any())
+    out += text("event wires: ", event_wires.declared.size(), ", in ", event_wires.batches.size(),
+                " batches of one event and one delay\n");
   if (odes.empty()) out += "no continuous state: no solver\n";
   out += taps.empty() ? "nothing recorded: no recorder\n"
                       : text("recorded signals: ", taps.size(), "\n");

@@ -35,20 +35,27 @@ void mark_located(const Plan& plan, List<char>& leaves) {
     if (node.located) leaves[node.leaf] = 1;
 }
 
+/// The blocks at both ends of the event wires.
+void mark_wired(const Plan& plan, List<char>& leaves) {
+  for (const EventWire& wire : plan.event_wires.declared) leaves[wire.from] = leaves[wire.to] = 1;
+}
+
 List<char> live_leaves(const Plan& plan) {
   List<char> live(plan.leaves.size(), 0);
   for (std::size_t i = 0; i < plan.leaves.size(); ++i) live[i] = has_state_or_event(plan.leaf(i));
   mark_located(plan, live);
+  mark_wired(plan, live);
   return live;
 }
 
 /// The live leaves that join their readers: a located relation is found by each solver in its own
-/// steps.
+/// steps, and an event wire leads to one block, not to its copies.
 List<char> joining_leaves(const Plan& plan, const List<char>& live) {
   List<char> joining = live;
   for (std::size_t i = 0; i < plan.leaves.size(); ++i)
     if (is_scheduled(plan.leaf(i))) joining[i] = 0;
   mark_located(plan, joining);
+  mark_wired(plan, joining);
   return joining;
 }
 

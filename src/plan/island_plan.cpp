@@ -17,6 +17,20 @@ int in_part(const Plan& whole, const Plan& part, const std::vector<int>& leaves,
   return node.relation ? leaf.relations[node.index] : leaf.outputs[node.index];
 }
 
+/// An event wire joins its blocks, so both are in the part.
+void add_event_wires(const Plan& whole, Plan& part, const std::vector<int>& leaves,
+                     const std::vector<int>& wires) {
+  const auto number = [&](int leaf) {
+    return static_cast<int>(std::ranges::lower_bound(leaves, leaf) - leaves.begin());
+  };
+  for (const int i : wires) {
+    EventWire wire = nth(whole.event_wires.declared, i);
+    wire.from = number(wire.from), wire.to = number(wire.to);
+    part.event_wires.declared.push_back(wire);
+  }
+  mark_receivers(part);
+}
+
 }  // namespace
 
 std::shared_ptr<const Plan> plan_of_island(const Plan& whole, const Islands& islands,
@@ -35,6 +49,7 @@ std::shared_ptr<const Plan> plan_of_island(const Plan& whole, const Islands& isl
     for (std::size_t input = 0; input < inputs.size(); ++input)
       part.leaves[l].inputs[input] = in_part(whole, part, leaves, inputs[input]);
   }
+  if (whole.event_wires.any()) add_event_wires(whole, part, leaves, islands.event_wires[k]);
   add_needs(part);
   for (const int tap : islands.taps[k]) {
     const Tap& recorded = nth(whole.taps, tap);

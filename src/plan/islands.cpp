@@ -2,6 +2,7 @@
 #include "saltus/plan/islands.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -49,7 +50,9 @@ class Finder {
       if (blocks_.live[i]) sets_.enliven(i);
     join_wires();
     join_queue();
+    join_event_wires();
     collect();
+    collect_event_wires();
   }
 
   Islands take() { return std::move(found_); }
@@ -71,7 +74,7 @@ class Finder {
     for (const auto& [read, i] : readers) join(read, i, name_of(i));
   }
 
-  void join(const std::vector<int>& read, int i, std::string name) {
+  void join(const std::vector<int>& read, int i, std::string name, bool by_events = false) {
     std::vector<int> others;
     for (const int leaf : read)
       if (sets_.live(leaf) && sets_.find(leaf) != sets_.find(i)) others.push_back(sets_.find(leaf));
@@ -79,7 +82,7 @@ class Finder {
     const auto parts =
         static_cast<std::size_t>(std::unique(others.begin(), others.end()) - others.begin());
     if (parts > 1 || (parts == 1 && sets_.live(i)))
-      found_.joins.push_back({std::move(name), parts});
+      found_.joins.push_back({std::move(name), by_events, parts});
     for (const int leaf : read) sets_.join(leaf, i);
   }
 
@@ -99,6 +102,23 @@ class Finder {
     }
     if (queued.size() < 2) return;
     join(queued, queued.front(), "the queue of executions");
+  }
+
+  void join_event_wires() {
+    std::map<std::pair<int, int>, std::vector<int>> sources;  // of each event input
+    for (const EventWire& wire : plan_.event_wires.declared)
+      sources[{wire.to, wire.input}].push_back(wire.from);
+    for (const auto& [to, from] : sources) {
+      const PlanLeaf& of = leaf(to.first);
+      join(from, to.first, text(of.path, ".", of.declared().event_inputs[to.second].name), true);
+    }
+  }
+
+  void collect_event_wires() {
+    const auto& wires = plan_.event_wires.declared;
+    if (!wires.empty()) found_.event_wires.resize(found_.count());
+    for (std::size_t i = 0; i < wires.size(); ++i)
+      nth(found_.event_wires, found_.of_leaf[wires[i].from]).push_back(static_cast<int>(i));
   }
 
   void collect() {
@@ -174,18 +194,19 @@ namespace {
 
 constexpr std::size_t most_shown = 8;
 
-/// How many joins are shown. A chain of blocks is one part by its nature: it is the reason only
-/// where nothing else is.
-std::size_t shown_joins(const Islands& islands) {
+/// The joins that are shown. A chain of blocks is one part by its nature: it is the reason only
+/// where nothing else is. An event wire joins what would otherwise step apart.
+std::vector<const Islands::Join*> shown_joins(const Islands& islands) {
   const auto& joins = islands.joins;
   const bool chains = islands.count() == 1 && !joins.empty() && joins.front().parts == 1;
-  std::size_t n = 0;
-  while (n < joins.size() && n < most_shown && (chains || joins[n].parts > 1)) ++n;
-  return n;
+  std::vector<const Islands::Join*> shown;
+  for (const Islands::Join& join : joins)
+    if (chains || join.parts > 1 || join.by_events) shown.push_back(&join);
+  return shown;
 }
 
 std::string text_of(const Islands::Join& join) {
-  return text(join.reader, "' (reads ", join.parts,
+  return text(join.reader, join.by_events ? "' (gets events of " : "' (reads ", join.parts,
               join.parts == 1 ? " other part)" : " other parts)");
 }
 
@@ -193,12 +214,12 @@ std::string text_of(const Islands::Join& join) {
 
 std::string Islands::describe() const {
   std::string out = count() == 1 ? "islands: 1" : text("islands: ", count(), ", which step apart");
-  const std::size_t n = shown_joins(*this);
-  for (std::size_t i = 0; i < n; ++i) {
+  const auto shown = shown_joins(*this);
+  for (std::size_t i = 0; i < std::min(shown.size(), most_shown); ++i) {
     out += i > 0 ? ", '" : count() == 1 ? ", because of '" : "; joined by '";
-    out += text_of(joins[i]);
+    out += text_of(*shown[i]);
   }
-  return out + (n == most_shown && joins.size() > most_shown ? ", ...\n" : "\n");
+  return out + (shown.size() > most_shown ? ", ...\n" : "\n");
 }
 
 }  // namespace saltus

@@ -120,7 +120,7 @@ void Collector::collect_carried(std::size_t e) {
 
 /// Collects the zero crossings that act in this pass, by leaf, in declaration order. The list keeps
 /// guards that do nothing when they fire: monitors, and terminal guards that end the run at a later
-/// firing.
+/// firing. A guard from which event wires start acts.
 void Collector::collect_crossings() {
   auto passive = present_->firings.begin();
   for (const Firing& firing : present_->firings) {
@@ -133,7 +133,8 @@ void Collector::collect_crossings() {
     if (group.queued) {
       present_->actions.push_back(
           {group.leaf, Cause::trigger, number, firing.slot, firing.from, false});
-    } else if (plan_->crossing_of(group).has_effect() || journal_->ends_run(number, waiting)) {
+    } else if (plan_->crossing_of(group).has_effect() || group.sends ||
+               journal_->ends_run(number, waiting)) {
       present_->actions.push_back({group.leaf, Cause::crossing, number, firing.slot, firing.from,
                                    holds_->of_guard(k).monitor.holding});
     } else {

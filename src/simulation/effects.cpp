@@ -12,7 +12,7 @@ void Effects::run(const Action& action) {
     case Cause::time:
       return run_update(action, source);
     case Cause::execution:
-      return executions_->execute(action);
+      return run_execution(action);
     default:
       return run_reset(action, source);
   }
@@ -23,6 +23,12 @@ void Effects::run_update(const Action& action, int source) {
   if (event.update)
     transition_->run({&event.update, action.leaf, 0, present_->t, journal_->name_of(source)});
   journal_->note({.kind = EventKind::time, .source = source, .leaf = action.leaf});
+  if (deliveries_->any()) deliveries_->fire_time_event(action.index);
+}
+
+void Effects::run_execution(const Action& action) {
+  const Index guard = executions_->execute(action);
+  if (deliveries_->any()) deliveries_->fire_guard(guard);
 }
 
 /// The effect that the author of a zero crossing or an edge declared.
@@ -66,6 +72,7 @@ void Effects::note(const Action& action, int source) {
                   .leaf = action.leaf,
                   .direction = -action.from,
                   .entry = action.slot < 0 ? 0 : (*guards_)[action.slot].entry});
+  if (deliveries_->any() && action.cause == Cause::crossing) deliveries_->fire_guard(action.slot);
 }
 
 }  // namespace saltus

@@ -67,8 +67,9 @@ Endings::Ending Endings::chattering(const Chattering::Seen& seen, const EventNam
   if (seen.executed)
     return {
         Status::chattering, name.block,
-        text("t = ", seen.t, " s: executions follow each other, the last of them of ", guard, ", ",
-             span, "Give it a longer delay, or a trigger that its executions do not set off")};
+        text("t = ", seen.t, " s: executions, or deliveries, follow each other, the last event is ",
+             guard, ", ", span,
+             "Give it a longer delay, or a trigger that its executions do not set off")};
   return {Status::chattering, name.block,
           text("t = ", seen.t, " s: guard ", guard, " fired ", span,
                "Give it hysteresis, a zeno_tolerance above 0 s, or a mode of its own for the "

@@ -56,18 +56,12 @@ void Executions::begin(const Context& from) {
   queue_.load(found_in(*pending), pending->scheduled, pending->draws);
 }
 
-std::shared_ptr<const PendingExecutions> Executions::save() const {
-  if (!any_) return {};
-  PendingExecutions saved = queue_.save();
-  if (saved.scheduled == 0) return {};
-  return std::make_shared<const PendingExecutions>(std::move(saved));
-}
+PendingExecutions Executions::save() const { return any_ ? queue_.save() : PendingExecutions(); }
 
 void Executions::open() {
   queue_.open();
   chain_ = {};
   set_off_ = false;
-  next_before_ = queue_.next();
 }
 
 // --- triggers
@@ -186,7 +180,7 @@ double Executions::draw() {
   return detail::uniform(detail::random_words(options_->event_seed, number, 0));
 }
 
-void Executions::execute(const Action& action) {
+Index Executions::execute(const Action& action) {
   const ZeroCrossing& crossing = crossing_of(action.index);
   const PendingExecution& one = taken_.pending;
   const Transition::Call call{&crossing.reset_map, one.leaf, one.entry, present_->t,
@@ -199,6 +193,7 @@ void Executions::execute(const Action& action) {
   set_off_ = set_off_ || taken_.chain > 1;
   chain_.execute(queue_.is_new(one) ? taken_.chain : 1, present_->pass);
   note(EventKind::executed, taken_, 0);
+  return plan().guard(action.index).slot + one.entry;
 }
 
 void Executions::note(EventKind kind, const WaitingExecution& one, int direction) {

@@ -17,7 +17,7 @@ void Instant::open(double t, const std::vector<int>& due, double longest) {
   flow_.open(t, longest);
   edges_.open();
   holds_.open();
-  if (executions_.any()) executions_.open();
+  open_queues();
   std::swap(present_.firings, guards_->fired_at_root);
   guards_->fired_at_root.clear();
   before_.guards = guards_->all(), before_.roots = present_.firings, before_.jump = jump_;
@@ -41,7 +41,8 @@ Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool
   turn_beside_root();
   for (;; ++present_.pass) {
     if (present_.pass - executions_.beside() >= options_->max_passes) {
-      if (transition_.pass_wrote() || executions_.executed()) journal_.throw_no_end();
+      if (transition_.pass_wrote() || executions_.executed() || deliveries_.delivered())
+        journal_.throw_no_end();
       present_.outcome.chatters = true;  // only relations or modes change, without end
       break;
     }
@@ -56,6 +57,7 @@ Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool
     armed = true;
     if (present_.firings.empty() && present_.actions.empty()) break;
   }
+  find_next_due();
   present_.outcome.restart = present_.outcome.restart || transition_.restarts();
   present_.outcome.events = journal_.events();
   if (Tangents* tangents = transition_.tangents()) tangents->close();
@@ -98,6 +100,7 @@ bool Instant::collect() {
   present_.changes = flipped || released ||
                      (present_.pass == 0 && transition_.held_outputs_changed()) ||
                      collector_.acts();
+  if (deliveries_.any() && deliveries_.collect()) present_.changes = true;
   if (executions_.any() && !present_.changes && present_.actions.empty())
     present_.changes = executions_.collect();
   if (!present_.changes) journal_.at_jump(jump_);
@@ -136,6 +139,7 @@ void Instant::run_pass() {
   transition_.begin_pass();
   for (const Action& action : present_.actions) effects_.run(action);
   present_.actions.clear();
+  if (deliveries_.any()) deliveries_.run();
   commit();
   do relations_.read_again();
   while (follow_controls());

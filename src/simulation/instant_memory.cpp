@@ -25,10 +25,11 @@ Instant::Instant(Machine& machine, GuardSet& guards, const SimulatorOptions& opt
                  journal_, present_),
       crossings_(machine, guards, flow_, holds_, contacts_, transition_, present_),
       executions_(machine, options, transition_, journal_, present_),
+      deliveries_(machine, transition_, present_),
       collector_(scope_, plan(), guards, edges_, holds_, contacts_, relations_, crossings_,
                  transition_, journal_, present_),
-      effects_(plan(), guards, edges_, holds_, contacts_, executions_, transition_, journal_,
-               present_) {
+      effects_(plan(), guards, edges_, holds_, contacts_, executions_, deliveries_, transition_,
+               journal_, present_) {
   guards.scan_points = options.event_scan_points;
 }
 
@@ -100,6 +101,8 @@ void Instant::undo() {
   holds_.undo();
   edges_.undo();
   if (executions_.any()) executions_.undo();
+  if (deliveries_.any()) deliveries_.undo();
+  find_next_due();
   journal_.undo();
   transition_.undo();
   jump_ = before_.jump;

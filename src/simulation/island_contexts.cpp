@@ -23,18 +23,54 @@ Context IslandRuns::part_of(const Context& whole, std::size_t k) const {
     v.continuation = std::make_shared<const Continuation>(all->islands[k]);
     v.settled = all->islands[k].settled;
   }
-  if (whole.pending() != nullptr && static_cast<int>(k) == queue_) {
-    PendingExecutions pending = *whole.pending();
-    for (PendingExecution& one : pending.all)
-      one.leaf = static_cast<int>(std::ranges::find(islands_.leaves[k], one.leaf) -
-                                  islands_.leaves[k].begin());
-    v.pending = std::make_shared<const PendingExecutions>(std::move(pending));
-  }
+  if (whole.pending() != nullptr) v.pending = pending_of(*whole.pending(), k);
   return blank.with_values(v);
 }
 
+/// What waits in island k, with its own numbers of the blocks; null if nothing does.
+std::shared_ptr<const PendingExecutions> IslandRuns::pending_of(const PendingExecutions& whole,
+                                                                std::size_t k) const {
+  const std::vector<int>& leaves = islands_.leaves[k];
+  const auto number = [&](int leaf) {
+    return static_cast<int>(std::ranges::lower_bound(leaves, leaf) - leaves.begin());
+  };
+  PendingExecutions part;
+  if (static_cast<int>(k) == queue_) {
+    part = whole;
+    part.deliveries.clear();
+    for (PendingExecution& one : part.all) one.leaf = number(one.leaf);
+  }
+  for (PendingDelivery one : whole.deliveries) {
+    if (islands_.of_leaf[one.leaf] != static_cast<int>(k)) continue;
+    one.leaf = number(one.leaf);
+    part.deliveries.push_back(one);
+  }
+  if (static_cast<int>(k) != queue_ && part.deliveries.empty()) return {};
+  return std::make_shared<const PendingExecutions>(std::move(part));
+}
+
+/// Adds what waits in island k to what waits in the whole. Deliveries are in the order of their due
+/// times, and of the islands.
+void IslandRuns::add_pending(PendingExecutions& whole, const PendingExecutions& part,
+                             std::size_t k) const {
+  const std::vector<int>& leaves = islands_.leaves[k];
+  if (static_cast<int>(k) == queue_) {
+    whole.all = part.all, whole.scheduled = part.scheduled, whole.draws = part.draws;
+    for (PendingExecution& one : whole.all) one.leaf = nth(leaves, one.leaf);
+  }
+  for (PendingDelivery one : part.deliveries) {
+    one.leaf = nth(leaves, one.leaf);
+    whole.deliveries.push_back(one);
+  }
+}
+
 /// Refuses the context of a run with one common step: it has the records of all guards in one list.
+/// Refuses deliveries of blocks in no island, too.
 void IslandRuns::require_fits(const Context& context) const {
+  if (context.pending() != nullptr) {
+    for (const PendingDelivery& one : context.pending()->deliveries)
+      if (islands_.of_leaf[one.leaf] < 0) throw_no_such_wire(*plan_, one);
+  }
   const Continuation* all = context.continuation();
   if (all == nullptr || all->islands.size() == all_.size()) return;
   throw ModelError(text(
@@ -51,6 +87,8 @@ Context IslandRuns::context() const {
   ContextValues v = begin_.values();
   v.time = time_, v.settled = true;
   Continuation continuation;
+  PendingExecutions pending;
+  bool waits = false;
   for (std::size_t k = 0; k < all_.size(); ++k) {
     const Context part = all_[k].run->context();
     if (part.continuation() == nullptr) return begin_;  // an island ended before its first instant
@@ -67,11 +105,12 @@ Context IslandRuns::context() const {
     continuation.jump += part.continuation()->jump;
     continuation.islands.push_back(*part.continuation());
     continuation.islands.back().settled = part.settled();
-    if (static_cast<int>(k) == queue_ && part.pending() != nullptr) {
-      PendingExecutions pending = *part.pending();
-      for (PendingExecution& one : pending.all) one.leaf = nth(islands_.leaves[k], one.leaf);
-      v.pending = std::make_shared<const PendingExecutions>(std::move(pending));
-    }
+    if (part.pending() != nullptr) add_pending(pending, *part.pending(), k), waits = true;
+  }
+  v.pending = nullptr;
+  if (waits) {
+    std::ranges::stable_sort(pending.deliveries, {}, &PendingDelivery::due);
+    v.pending = std::make_shared<const PendingExecutions>(std::move(pending));
   }
   v.continuation = std::make_shared<const Continuation>(std::move(continuation));
   return begin_.with_values(v);

@@ -49,7 +49,7 @@ Run::Run(std::shared_ptr<const Plan> plan, SimulatorOptions options)
       machine_(std::move(plan)),
       guards_(machine_.plan()),
       instant_(machine_, guards_, options_, results_),
-      calendar_(machine_.plan(), &machine_.z, instant_.executions().next()),
+      calendar_(machine_.plan(), &machine_.z, instant_.next_due()),
       major_(options_.max_major_step_length),
       integration_(machine_, guards_, options_),
       rows_(machine_, results_, options_),
@@ -66,7 +66,7 @@ void Run::initialize(const Context& context) {
   require_common_step(context);
   if (context.continuation() != nullptr) instant_.fits(*context.continuation());
   if (tangents_) tangents_->require_fits(context);
-  instant_.executions().require_fits(context);
+  instant_.require_fits(context);
   calendar_.check(context.time());
   Context last = std::exchange(begin_, {});  // no run, if a function of the model throws now
   machine_.load(context);
@@ -80,7 +80,7 @@ void Run::initialize(const Context& context) {
   rows_.begin();
   if (options_.dense_output) results_.trajectory.start(machine_.shared_plan(), begin_, options_);
   calendar_.begin(time_, context.settled());
-  instant_.executions().begin(context);
+  instant_.begin_queues(context);
   integration_.begin();
   begun_ = over_ = false;
   accepted_ = {.settled = context.settled()};
@@ -214,10 +214,9 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   rows_.record(time_, instant_.jump(), machine_.x.data());  // the row that a failure leaves
   accepted_.rows = results_.time.size();
   const bool at_root = reason == StopReason::root;
-  const bool idle = (at_root || instant_.executions().any()) && endings_.idle();
+  const bool idle = (at_root || instant_.may_wait()) && endings_.idle();
   const Outcome outcome = run_instant(t_end, at_start);
-  const Chattering::Seen seen{time_, at_root, t_end - begin_.time(),
-                              instant_.executions().set_off()};
+  const Chattering::Seen seen{time_, at_root, t_end - begin_.time(), instant_.set_off()};
   if (auto ending = endings_.after_instant(outcome, seen, idle, instant_.journal()))
     return end(*ending);
   return Status::reached_end;
@@ -231,7 +230,7 @@ Outcome Run::run_instant(double t_end, bool at_start) {
   if (tangents_) tangents_->log();
   if (instant_.jump() != jump) histories_.changed();
   accepted_ = {.place = Place::machine, .settled = true};
-  const bool cut = instant_.executions().stops_earlier() && integration_.inside_step();
+  const bool cut = instant_.stops_earlier() && integration_.inside_step();
   if (outcome.restart || cut)
     integration_.restart(time_, {.horizon = outcome.horizon, .flow = instant_.flow()});
   return outcome;

@@ -50,7 +50,7 @@ Context Run::context() const {
   if (results_.status == Status::failed && accepted_.place == Place::start) return begin_;
   const bool settled = results_.status != Status::failed || accepted_.settled;
   return machine_.save(begin_, time_, std::make_shared<const Continuation>(instant_.save()),
-                       settled, instant_.executions().save());
+                       settled, instant_.pending());
 }
 
 std::string Run::describe() const {

@@ -76,6 +76,15 @@ Inputs Transition::inputs_before(int leaf) {
   return {places.data(), static_cast<int>(places.size()), &minus_};
 }
 
+namespace {
+
+[[noreturn]] void throw_not_finite(double t, std::string_view source, const std::string& path) {
+  throw SimulationError(
+      text("t = ", t, " s: '", source, "' set a state that is not finite (NaN or Inf)"), t, path);
+}
+
+}  // namespace
+
 /// Runs a reset map, which writes to x, z and the mode.
 Transition::Wrote Transition::apply(const Call& call, VectorRef x, VectorRef z, int& mode) {
   const PlanLeaf& of = machine_->plan().leaf(call.leaf);
@@ -83,12 +92,33 @@ Transition::Wrote Transition::apply(const Call& call, VectorRef x, VectorRef z, 
   if (call.before) at.u = inputs_before(call.leaf);
   Next next(x, z, mode, of.path);
   (*call.map)(*of.system, at, next);
-  if (!is_finite(x) || !is_finite(z)) {
-    throw SimulationError(
-        text("t = ", call.t, " s: '", call.source, "' set a state that is not finite (NaN or Inf)"),
-        call.t, of.path);
-  }
+  if (!is_finite(x) || !is_finite(z)) throw_not_finite(call.t, call.source, of.path);
   return {next.wrote_continuous_state(), next.wrote_discrete_state()};
+}
+
+/// The weight is one more input, behind those of the leaf: traced functions read it there.
+Transition::Wrote Transition::receive(const Arrival& arrival, VectorRef x, VectorRef z, int& mode) {
+  const Plan& plan = machine_->plan();
+  const PlanLeaf& of = plan.leaf(arrival.leaf);
+  const EventInputDeclaration& input = of.declared().event_inputs[arrival.input];
+  machine_->y[plan.event_wires.weight.offset] = arrival.weight;
+  now_ = {machine_->x.data(), machine_->z.data(), machine_->p.data(), machine_->y.data()};
+  At at = seen(arrival.leaf, arrival.entry, arrival.t);
+  at.u = {of.delivery_places.data(), static_cast<int>(of.delivery_places.size()), &now_};
+  Delivery next(x, z, mode, of.path, arrival.weight);
+  input.reset_map(*of.system, at, next);
+  if (!is_finite(x) || !is_finite(z))
+    throw_not_finite(arrival.t, text(of.path, ".", input.name), of.path);
+  return {next.wrote_continuous_state(), next.wrote_discrete_state()};
+}
+
+void Transition::deliver(const Arrival& arrival) {
+  const PlanLeaf& of = machine_->plan().leaf(arrival.leaf);
+  int& to = modes_next_[arrival.leaf];
+  const int mode = to;
+  count(arrival.leaf,
+        receive(arrival, {x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, to));
+  wrote_mode_ = wrote_mode_ || to != mode;
 }
 
 void Transition::count(int leaf, Wrote wrote) {

@@ -14,7 +14,7 @@ DOCUMENT = ROOT / "docs" / "semantics.md"
 SENTENCE = re.compile(r"^\*\*(\d+\.\d+[a-z]?)\*\*", re.M)  # **2.3** at the begin of a line
 CASE = re.compile(r'TEST_CASE\(\s*"(\d+\.\d+[a-z]?) ')
 # How many sentences each section of the contract has; 2.9a, 5.6a and 5.6b are of their own.
-SECTIONS = {1: 2, 2: 12, 3: 16, 4: 7, 5: 10, 6: 8}
+SECTIONS = {1: 2, 2: 12, 3: 21, 4: 7, 5: 10, 6: 8}
 PYTHON = {"6.5"}
 PYTHON_TESTS = ROOT / "tests" / "python"
 # def test_6_5_..., or a docstring or comment that begins with 6.5: or cites semantics 6.5

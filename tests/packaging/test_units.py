@@ -34,6 +34,7 @@ ELSEWHERE = {
     "simulation/detail/chain_rule": "unit/linearize_test.cpp",
     "simulation/detail/collector": "unit/instant_test.cpp",
     "simulation/detail/effects": "unit/transition_test.cpp",
+    "simulation/detail/deliveries": "semantics/event_wires_delay_test.cpp",
     "simulation/detail/endings": "errors/chattering_errors_test.cpp",
     "simulation/detail/executions": "semantics/queue_schedule_test.cpp",
     "simulation/detail/flow_chain": "unit/declared_derivatives_test.cpp",

@@ -101,6 +101,10 @@ PAIRS = {
         members("model/event.hpp", "EdgeReset"),
         arguments(Leaf.declare_edge_reset),
     ),
+    "declare_event_input": (
+        members("model/event_port.hpp", "EventInputDeclaration"),
+        arguments(Leaf.declare_event_input),
+    ),
     "declare_time_event": (
         members("model/event.hpp", "TimeEvent"),
         arguments(Leaf.declare_time_event),

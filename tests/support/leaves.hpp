@@ -31,6 +31,7 @@ class Leaf : public saltus::LeafSystem {
   using LeafSystem::declare_discrete_state_output;
   using LeafSystem::declare_dynamic_parameter;
   using LeafSystem::declare_edge_reset;
+  using LeafSystem::declare_event_input;
   using LeafSystem::declare_input_port;
   using LeafSystem::declare_jacobian;
   using LeafSystem::declare_jacobian_sparsity;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "saltus/library/library.hpp"
-#include "support/leaves.hpp"
+#include "support/cells.hpp"
 
 using namespace saltus;
 
@@ -151,4 +151,29 @@ TEST_CASE("the edge of a control signal ends at the frame in each language", "[p
 
 TEST_CASE("a diagram that nothing executes has no control signals", "[picture]") {
   CHECK(picture(reset_by_a_step()).controls.empty());
+}
+
+TEST_CASE("event wires are edges with the names of their events and inputs", "[picture]") {
+  support::Network inner;
+  inner.add(support::cell("cell", 2.0));
+  inner.builder.export_event_output(inner.blocks.at("cell")->event_output("fire"), "spike");
+  const auto group = std::make_shared<Diagram>(inner.builder.build("group"));
+  support::Network net;
+  net.builder.add(group);
+  net.add(support::digits("digits"));
+  for (const double weight : {1.0, 2.0})
+    net.builder.connect_event(group->event_output("spike"),
+                              net.blocks.at("digits")->event_input("digit"), weight);
+  const Diagram diagram = net.builder.build();
+  for (const int depth : {1, 9}) {
+    const Picture drawn = picture(diagram, {.max_depth = depth});
+    REQUIRE(drawn.event_wires.size() == 1);
+    const Picture::EventWire& wire = drawn.event_wires.front();
+    CHECK(nth(drawn.blocks, wire.from).name == (depth == 1 ? "group" : "cell"));
+    CHECK(nth(drawn.blocks, wire.to).name == "digits");
+    CHECK(event_label(wire) == "fire → digit (2)");
+  }
+  CHECK(support::contains(to_dot(diagram), "label=\"fire → digit (2)\"];"));
+  CHECK(support::contains(to_dot(diagram), "event wire"));
+  CHECK(support::contains(to_mermaid(diagram), "==>|\"fire → digit"));
 }

@@ -54,6 +54,10 @@ template <class F>
 void call(const F& f, const At& at, Derivatives& out) {
   f(at, out);
 }
+template <class F>
+void call(const F& f, const At& at, Delivery& next) {
+  f(at, next);
+}
 
 }  // namespace detail
 
@@ -143,6 +147,9 @@ using VectorFunction = Callback<void(const At&, VectorRef)>;
 
 /// A reset map or update: it sets the new state through `Next`.
 using ResetMap = Callback<void(const At&, Next&)>;
+
+/// The reset map of an event input: `Delivery` has the weight of the wire, too.
+using DeliveryMap = Callback<void(const At&, Delivery&)>;
 
 /// Fills a matrix, for example the Jacobian d(xdot)/d(x).
 using MatrixFunction = Callback<void(const At&, MatrixRef)>;

@@ -82,13 +82,15 @@ class At {
      const double* const* relations)
       : time(t), x(state), z(discrete), p(parameters), u(inputs), mode(m), relations_(relations) {}
 
-  double time;      ///< [s]
-  VectorView x;     ///< continuous state of this leaf
-  VectorView z;     ///< discrete state of this leaf
-  VectorView p;     ///< parameters of this leaf, in the order of declaration
-  Inputs u;         ///< inputs of this leaf
-  int mode;         ///< mode of this leaf
-  Index entry = 0;  ///< in a reset map: the index of the guard that fired, in a vector of guards
+  double time;   ///< [s]
+  VectorView x;  ///< continuous state of this leaf
+  VectorView z;  ///< discrete state of this leaf
+  VectorView p;  ///< parameters of this leaf, in the order of declaration
+  Inputs u;      ///< inputs of this leaf
+  int mode;      ///< mode of this leaf
+  /// In a reset map: the index of the guard that fired, in a vector of guards; in that of an event
+  /// input the entry of the input that the wire leads to.
+  Index entry = 0;
 
   /// A vector parameter.
   VectorView parameter(ParameterIndex k) const { return {p.data() + k.offset, k.size}; }
@@ -146,6 +148,18 @@ class Next {
   int* mode_;
   const std::string* path_;
   bool wrote_x_ = false, wrote_z_ = false, wrote_mode_ = false;
+};
+
+/// The result of the reset map of an event input, and the weight of the wire that delivers.
+class Delivery final : public Next {
+ public:
+  Delivery(VectorRef x, VectorRef z, int& mode, const std::string& path, double weight)
+      : Next(x, z, mode, path), weight_(weight) {}
+
+  double weight() const noexcept { return weight_; }
+
+ private:
+  double weight_;
 };
 
 }  // namespace saltus

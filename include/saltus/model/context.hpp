@@ -96,9 +96,9 @@ class Context {
   bool settled() const noexcept { return settled_; }
   /// The further state of the run that ended here; null after a value was changed by hand.
   const Continuation* continuation() const noexcept { return continuation_.get(); }
-  /// The executions of queued zero crossings that wait; null if no run has scheduled any. Every
-  /// `with_*` keeps them with the times at which they are due. An execution that is due before
-  /// `time()` happens at the start of the run.
+  /// The executions of queued zero crossings that wait, and the deliveries of event wires; null if
+  /// no run has scheduled any. Every `with_*` keeps them with the times at which they are due. One
+  /// that is due before `time()` happens at the start of the run.
   const PendingExecutions* pending() const noexcept { return pending_.get(); }
 
   /// All values that change, for saving them.

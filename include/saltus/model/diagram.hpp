@@ -24,6 +24,20 @@ class Diagram final : public System {
     OutputPort from;
     InputPort to;
   };
+  /// A wire from an event to an input for events.
+  struct EventWire {
+    EventOutputPort from;
+    EventInputPort to;
+    double weight = 1.0, delay = 0.0;  ///< delay [s]
+  };
+  struct ExportedEventOutput {
+    std::string name;
+    EventOutputPort port;
+  };
+  struct ExportedEventInput {
+    std::string name;
+    EventInputPort port;
+  };
   struct ExportedInput {
     std::string name;
     InputPort port;
@@ -51,6 +65,7 @@ class Diagram final : public System {
   const System& operator[](std::string_view child) const;
   const std::vector<Child>& children() const noexcept { return children_; }
   const std::vector<Wire>& wires() const noexcept { return wires_; }
+  const std::vector<EventWire>& event_wires() const noexcept { return event_wires_; }
   const std::vector<Controlled>& controlled() const noexcept { return controlled_; }
   /// The block that holds the parameters of this diagram; null if it has none.
   const LeafSystem* parameters() const noexcept { return parameters_.get(); }
@@ -65,15 +80,23 @@ class Diagram final : public System {
   LeafPort output_source(int index) const override;
   LeafPort input_target(int index) const override;
 
+  std::vector<std::string> event_output_names() const override;
+  std::vector<std::string> event_input_names() const override;
+  LeafEvent event_source(int index) const override;
+  LeafEvent event_target(int index) const override;
+
  private:
   friend class DiagramBuilder;
   explicit Diagram(std::string name) : System(std::move(name)) {}
 
   std::vector<Child> children_;
   std::vector<Wire> wires_;
+  std::vector<EventWire> event_wires_;
   std::vector<Controlled> controlled_;
   List<ExportedInput> inputs_;
   List<ExportedOutput> outputs_;
+  List<ExportedEventOutput> event_outputs_;
+  List<ExportedEventInput> event_inputs_;
   std::shared_ptr<const LeafSystem> parameters_;
   std::vector<Computed> computed_;
   std::vector<std::shared_ptr<const void>> uses_;  // of its leaves, see Declarations

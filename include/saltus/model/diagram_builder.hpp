@@ -54,6 +54,24 @@ class DiagramBuilder {
 
   void connect(OutputPort from, InputPort to);
 
+  /// Leads an event of one leaf to an event input of another, or of the same: each firing of the
+  /// event applies the reset map of the input, with the weight of the wire.
+  ///
+  ///     builder.connect_event(a.event_output("fire"), b.event_input("synapse"), 0.5, 1e-3);
+  ///
+  /// With a delay of 0 s that is in the next pass of the instant; otherwise `delay` [s] later, at an
+  /// exact stop. Any number of wires may leave one event and lead to one input. Deliveries of one
+  /// pass follow each other in the order in which their wires were declared. Throws ModelError for a
+  /// block that was not added, a weight that is not finite, and a delay that is negative or not
+  /// finite. `compile` throws ModelError for a block in a part with a control signal.
+  void connect_event(EventOutputPort from, EventInputPort to, double weight = 1.0,
+                     double delay = 0.0);
+
+  /// Makes an event, or an input for events, of a block one of the diagram; returns its position
+  /// there. An entry is named where the wire is made.
+  int export_event_output(EventOutputPort port, std::string name = {});
+  int export_event_input(EventInputPort port, std::string name = {});
+
   /// Executes a block only while, or only when, a signal of this diagram says so: see Execution.
   ///
   /// Enabled: while the signal is false, xdot = 0 for all continuous states of the block, its

@@ -11,6 +11,7 @@
 #include "saltus/base/list.hpp"
 #include "saltus/base/matrix_entry.hpp"
 #include "saltus/model/event.hpp"
+#include "saltus/model/event_port.hpp"
 #include "saltus/model/history.hpp"
 #include "saltus/model/parameter_check.hpp"
 #include "saltus/model/right_hand_side.hpp"
@@ -57,6 +58,7 @@ struct Declarations {
   List<ZeroCrossing> zero_crossings;
   List<EdgeReset> edge_resets;
   List<TimeEvent> time_events;
+  List<EventInputDeclaration> event_inputs;
   List<History> histories;
   /// In a plan: the inputs that are control signals. While one of them is false, the leaf is not
   /// executed: see DiagramBuilder::execute.
@@ -70,6 +72,7 @@ class LeafSystem : public System {
  public:
   using At = saltus::At;
   using Next = saltus::Next;
+  using Delivery = saltus::Delivery;
   using VectorRef = saltus::VectorRef;
   using VectorView = saltus::VectorView;
   using MatrixRef = saltus::MatrixRef;
@@ -86,6 +89,11 @@ class LeafSystem : public System {
   void collect(Structure& out, const std::string& path) const override;
   LeafPort output_source(int index) const override;
   LeafPort input_target(int index) const override;
+
+  std::vector<std::string> event_output_names() const override;
+  std::vector<std::string> event_input_names() const override;
+  LeafEvent event_source(int index) const override;
+  LeafEvent event_target(int index) const override;
 
  protected:
   /// Throws ModelError while others refer to the declarations.
@@ -141,6 +149,9 @@ class LeafSystem : public System {
   /// Calls `update` once, at `time` [s]. Without update: an exact stop at which held outputs are
   /// evaluated again.
   void declare_one_shot(double time, ResetMap update = {}, std::string name = {});
+  /// Declares an input for events of other leaves, see DiagramBuilder::connect_event. Returns its
+  /// position. Throws ModelError for a name declared twice, a missing reset map or a size below 1.
+  int declare_event_input(EventInputDeclaration input);
   /// Keeps a record of an input in the discrete state, which is declared before. Throws ModelError
   /// for an input that does not exist, no function, or a longest step that is not positive.
   void declare_history(History history);

@@ -1,4 +1,5 @@
-// Pending executions: the queued zero crossings that are scheduled and not executed yet.
+// Pending executions: the queued zero crossings that are scheduled and not executed yet, and the
+// firings that event wires have not delivered yet.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +29,23 @@ struct PendingExecution {
   bool operator==(const PendingExecution&) const = default;
 };
 
+/// A firing of an event that event wires with one delay deliver later.
+struct PendingDelivery {
+  int leaf = 0;        ///< number of the block of the event in the system
+  int event = 0;       ///< the zero crossings of the block come first, then its time events
+  int entry = 0;       ///< the guard that fired, in a vector of guards
+  double delay = 0.0;  ///< [s] of the wires
+  double due = 0.0;    ///< [s]
+  bool operator==(const PendingDelivery&) const = default;
+};
+
 /// All executions that are pending, in the order in which they are due, and the counts that later
 /// executions need. A context carries them, also after a value of it was changed by hand.
 struct PendingExecutions {
   std::vector<PendingExecution> all = {};
-  std::int64_t scheduled = 0;  ///< executions scheduled so far
-  std::int64_t draws = 0;      ///< ties decided at random so far
+  std::int64_t scheduled = 0;                    ///< executions scheduled so far
+  std::int64_t draws = 0;                        ///< ties decided at random so far
+  std::vector<PendingDelivery> deliveries = {};  ///< by due time, then in the order of the firings
   bool operator==(const PendingExecutions&) const = default;
 };
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "saltus/model/context.hpp"
+#include "saltus/model/event_port.hpp"
 #include "saltus/model/execution.hpp"
 #include "saltus/model/port.hpp"
 
@@ -53,8 +54,15 @@ struct Structure {
     const LeafSystem* from;
     std::shared_ptr<const tape::Tape> values;
   };
+  /// A wire from an event of a leaf to an input for events.
+  struct EventWire {
+    LeafEvent from, to;
+    int from_entry, to_entry;
+    double weight, delay;
+  };
   std::vector<Leaf> leaves;
   std::vector<Wire> wires;
+  std::vector<EventWire> event_wires;
   std::vector<Controlled> controlled;  ///< a part comes before the part that contains it
   std::vector<FixedInput> fixed;       ///< if one input has two of them, the last one counts
   std::vector<Computed> computed;      ///< those of a diagram come before those of a diagram in it
@@ -86,6 +94,19 @@ class System {
   InputPort input(std::string_view port) const;
   OutputPort output(int index = 0) const;
   OutputPort output(std::string_view port) const;
+
+  /// An event that wires may start from, by name: a zero crossing or a time event of a leaf. Of a
+  /// vector of guards each entry is a source of its own. Throws ModelError for an unknown name, with
+  /// the nearest one, and for an entry that it does not have.
+  EventOutputPort event_output(std::string_view event, std::optional<Index> entry = {}) const;
+  EventOutputPort event_output(int index, std::optional<Index> entry = {}) const;
+  /// An input for events, by name; likewise.
+  EventInputPort event_input(std::string_view port, std::optional<Index> entry = {}) const;
+  EventInputPort event_input(int index, std::optional<Index> entry = {}) const;
+  /// One entry of an event, or of an input for events, of this system: the one that the port names, or
+  /// its only one. Throws ModelError if it has several and the port names none.
+  Index entry_of(const EventOutputPort& port) const;
+  Index entry_of(const EventInputPort& port) const;
 
   /// Gives an input a constant value, so that nothing has to be connected to it: a number, a
   /// vector, or a matrix. The value is in force in plans that are compiled afterwards. Throws ModelError for an
@@ -122,6 +143,14 @@ class System {
   /// The input of a leaf that an input port of this system feeds.
   virtual LeafPort input_target(int index) const = 0;
 
+  /// The events that wires may start from, and the inputs that they may lead to.
+  virtual std::vector<std::string> event_output_names() const { return {}; }
+  virtual std::vector<std::string> event_input_names() const { return {}; }
+  /// The event of a leaf behind event output `index`, and the input of a leaf behind event input
+  /// `index`.
+  virtual LeafEvent event_source(int index) const;
+  virtual LeafEvent event_target(int index) const;
+
  protected:
   /// Appends the values of the inputs that were fixed.
   void collect_fixed(Structure& out) const;
@@ -132,6 +161,8 @@ class System {
     Shape shape;
   };
   void fix(int index, Fixed value);
+  Index checked_entry(const LeafEvent& of, std::optional<Index> entry, std::string_view kind,
+                      const std::string& port) const;
   static int next_id();
   int checked(int index, const std::vector<std::string>& names, std::string_view kind) const;
   int find(std::string_view port, const std::vector<std::string>& names,

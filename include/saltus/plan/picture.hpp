@@ -54,11 +54,19 @@ struct Picture {
     Flow flow = Flow::unknown;
   };
 
+  /// The event wires from one event of a block to one event input of another.
+  struct EventWire {
+    int from = 0, to = 0;    ///< blocks
+    std::string words = {};  ///< "fire → synapse"
+    int count = 1;           ///< how many wires there are
+  };
+
   std::string name = {};
   std::vector<Frame> frames = {};  ///< each after the frame around it
   std::vector<Block> blocks = {};
   std::vector<Wire> wires = {};
   std::vector<Control> controls = {};
+  std::vector<EventWire> event_wires = {};
   std::string trouble = {};  ///< the reason why there is no plan; every flow is then unknown
 };
 
@@ -74,9 +82,13 @@ bool obvious(const std::vector<std::string>& ports, std::string_view usual);
 /// The width of a wire in words: "3", or "2 x 3" of a matrix.
 std::string dimensions_of(const Picture::Wire& wire);
 
+/// The words at an event wire: "fire → synapse", or "fire → synapse (100)".
+std::string event_label(const Picture::EventWire& wire);
+
 /// The picture in the language of Graphviz: `dot -Tsvg`. Inner diagrams are clusters. Wires that
 /// are read at events only are dashed; folded and dropped blocks are grey; a legend says so. A
-/// dotted edge leads from a control signal to the block or the cluster that it executes.
+/// dotted edge leads from a control signal to the block or the cluster that it executes. Event wires
+/// have a colour of their own, and their events and inputs as words.
 std::string to_dot(const System& system, const PictureOptions& options = {});
 
 /// The same picture as a Mermaid flowchart, which GitHub, GitLab, JupyterLab and MkDocs-Material

@@ -12,6 +12,7 @@
 
 #include "saltus/base/list.hpp"
 #include "saltus/model/diagram.hpp"
+#include "saltus/plan/event_wires.hpp"
 #include "saltus/plan/rate.hpp"
 
 namespace saltus {
@@ -46,6 +47,9 @@ struct PlanLeaf {
   Index x = 0, nx = 0, z = 0, nz = 0, p = 0, np = 0;
   List<int> inputs = {};  // the node that feeds each input
   List<Place> input_places = {};
+  bool receives = false;  ///< event wires lead to it
+  /// Its inputs and the weight of a delivery, if it receives.
+  List<Place> delivery_places = {};
   List<int> outputs = {};    // the node of each output
   List<int> relations = {};  // the node of each relation
   /// The declarations of the system, or the declarations with which a Refinement replaced them.
@@ -72,6 +76,7 @@ struct GuardGroup {
   Direction direction = Direction::crosses_zero;
   bool monitor = false;
   bool queued = false;             // its firing is a trigger of an execution
+  bool sends = false;              // event wires start from it
   std::string name = {};           // "block.guard"
   List<int> leaves = {};           // the blocks whose continuous state changes it
   std::vector<int> controls = {};  // nodes: it is seen while all of them are true
@@ -147,6 +152,7 @@ struct Plan {
   List<EdgeWatch> edges;
   bool reads_before = false;  // some of their resets read the inputs before the instant
   List<ScheduledEvent> schedule;
+  EventWires event_wires;
   std::vector<Tap> taps;
   std::vector<int> histories;  // leaves that keep a history
   std::vector<int> checked;    // leaves with parameter checks

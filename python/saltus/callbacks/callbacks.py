@@ -47,10 +47,14 @@ class Callbacks:
         functions = block["functions"]
         trace = self._tracer()
         outcomes = [outcome_of(block, function, trace) for function in functions]
+        known = number in self.outcomes
         self.outcomes[number] = outcomes
         self._called = {}
         self._glance = self._values = None
-        self._note_ways()
+        if known:
+            self._note_ways()
+        else:  # one look at each block: a diagram may have ten thousand
+            self._add_ways(outcomes)
         self._runs[number] = [
             core_trace(block, f, o) for f, o in zip(functions, outcomes, strict=True)
         ]
@@ -109,8 +113,13 @@ class Callbacks:
 
     def _note_ways(self) -> None:
         """Whether some function is traced, and whether some was refused or is compiled."""
-        traced = {hasattr(o, "tape") for of_block in self.outcomes.values() for o in of_block}
-        self._traces, self._calls = True in traced, False in traced
+        self._traces = self._calls = False
+        for of_block in self.outcomes.values():
+            self._add_ways(of_block)
+
+    def _add_ways(self, outcomes: list[Any]) -> None:
+        traced = {hasattr(outcome, "tape") for outcome in outcomes}
+        self._traces, self._calls = self._traces or True in traced, self._calls or False in traced
 
     def _new_glance(self, others: Others) -> Callable[[], bool] | None:
         """None if a search for writers is needed before every run."""

@@ -13,7 +13,13 @@ __all__ = ["Block", "core_trace", "outcome_of"]
 
 Block = dict[str, Any]  # the facts of a block, or of a function of it
 
-KINDS = {"jacobian": "matrix", "reset_map": "reset", "edge_reset": "reset", "update": "update"}
+KINDS = {
+    "jacobian": "matrix",
+    "reset_map": "reset",
+    "edge_reset": "reset",
+    "event_input": "reset",
+    "update": "update",
+}
 """role of a function -> the tracer's word for it; functions of other roles return a vector"""
 
 GUARDS = {"guard", "relation"}
@@ -46,7 +52,7 @@ def _signature(block: Block, function: Block) -> Any:
         x=block["x"],
         z=block["z"],
         parameters=block["parameters"],
-        input_shapes=block["input_shapes"],
+        input_shapes=_input_shapes(block, function),
         inputs=function["inputs"],
         kind=KINDS.get(function["role"], "vector"),
         out=function["out"],
@@ -54,6 +60,12 @@ def _signature(block: Block, function: Block) -> Any:
         result_size=function["result_size"],
         result_shape=function["result_shape"],
     )
+
+
+def _input_shapes(block: Block, function: Block) -> list[tuple[int, ...]]:
+    """The shapes of the inputs; the weight of an event wire comes after them."""
+    shapes: list[tuple[int, ...]] = list(block["input_shapes"])
+    return [*shapes, ()] if function["role"] == "event_input" else shapes
 
 
 def _out_shape(block: Block, function: Block) -> tuple[int, ...] | None:

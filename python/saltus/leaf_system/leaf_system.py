@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from saltus import _core
 from saltus._porting import refusing
+from saltus.leaf_system.event_inputs import DeclaresEventInputs
 from saltus.leaf_system.guards import DeclaresGuards
 from saltus.leaf_system.ports import DeclaresPorts
 from saltus.leaf_system.times import DeclaresTimes
@@ -13,7 +14,9 @@ from saltus.system import System
 __all__ = ["LeafSystem"]
 
 
-class LeafSystem(System, DeclaresValues, DeclaresPorts, DeclaresGuards, DeclaresTimes):
+class LeafSystem(
+    System, DeclaresValues, DeclaresPorts, DeclaresGuards, DeclaresTimes, DeclaresEventInputs
+):
     """A block with equations of its own. Call `super().__init__(name=...)`, then declare.
 
     A callback runs in one of three ways; `system.explain()` names the way, and the reason if it is

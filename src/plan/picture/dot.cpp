@@ -181,6 +181,13 @@ std::string control_line(const Picture& picture, const Picture::Control& control
               cluster ? text(" lhead=cluster_", control.frame) : std::string(), "];\n");
 }
 
+constexpr const char* event_colour = "#B45309";
+
+std::string event_line(const Picture::EventWire& wire) {
+  return text("  b", wire.from, " -> b", wire.to, " [arrowhead=vee weight=0 color=\"", event_colour,
+              "\" fontcolor=\"", event_colour, "\" label=", quoted(event_label(wire)), "];\n");
+}
+
 /// Writes the blocks of a frame and the frames in it.
 void write_frame(std::string& out, const Picture& picture, int frame, const std::string& indent) {
   for (std::size_t i = 0; i < picture.blocks.size(); ++i) {
@@ -212,6 +219,7 @@ std::string legend_of(const Picture& picture) {
   }
   if (std::ranges::any_of(picture.wires, [](const Wire& w) { return w.event; }))
     entry("#404040", "╌╌", "read at events only");
+  if (!picture.event_wires.empty()) entry(event_colour, "━━", "event wire");
   const std::string trouble =
       picture.trouble.empty()
           ? std::string()
@@ -241,6 +249,7 @@ std::string to_dot(const System& system, const PictureOptions& options) {
   write_frame(out, drawn, -1, "  ");
   for (const Wire& wire : drawn.wires) out += wire_line(drawn, wire);
   for (const Picture::Control& control : drawn.controls) out += control_line(drawn, control);
+  for (const Picture::EventWire& wire : drawn.event_wires) out += event_line(wire);
   if (const std::string legend = legend_of(drawn); !legend.empty())
     out += text("  label=", legend, ";\n");
   return out + "}\n";

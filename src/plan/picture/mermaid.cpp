@@ -116,6 +116,10 @@ std::string control_line(const Picture::Control& control) {
   return text("  b", control.from, " -.->|\"", escaped(control.words), "\"| ", to, "\n");
 }
 
+std::string event_line(const Picture::EventWire& wire) {
+  return text("  b", wire.from, " ==>|\"", escaped(event_label(wire)), "\"| b", wire.to, "\n");
+}
+
 void write_frame(std::string& out, const Picture& picture, int frame, const std::string& indent) {
   for (std::size_t i = 0; i < picture.blocks.size(); ++i) {
     if (picture.blocks[i].frame == frame) out += indent + block_line(picture.blocks[i], i);
@@ -220,6 +224,7 @@ std::string to_mermaid(const System& system, const PictureOptions& options) {
   write_frame(out, drawn, -1, "  ");
   for (const Wire& wire : drawn.wires) out += wire_line(drawn, wire);
   for (const Picture::Control& control : drawn.controls) out += control_line(control);
+  for (const Picture::EventWire& wire : drawn.event_wires) out += event_line(wire);
   const std::string legend = legend_of(drawn);
   return out + legend + classes + frames_of(drawn, !legend.empty()) + link_styles(drawn);
 }

@@ -3,6 +3,7 @@
 #include "saltus/base/list.hpp"
 
 #include <map>
+#include <tuple>
 #include <unordered_map>
 
 #include "parts.hpp"
@@ -102,6 +103,7 @@ class Drawing {
     add_ports(diagram, ends, frame);
     add_wires(diagram, ends);
     add_controls(diagram);
+    add_event_wires(diagram);
   }
 
   void add_block(const System& system, const std::string& name, int frame) {
@@ -117,7 +119,9 @@ class Drawing {
     } else {
       block.kind = Block::Kind::diagram;
     }
-    ends_[&system].block = add(std::move(block));
+    const int number = add(std::move(block));
+    ends_[&system].block = number;
+    for (const Structure::Leaf& leaf : structure_of(system).leaves) block_of_[leaf.system] = number;
   }
 
   int add(Block block) {
@@ -199,6 +203,24 @@ class Drawing {
     }
   }
 
+  /// Wires between the same events and inputs are one edge. Ports at a border are passed.
+  void add_event_wires(const Diagram& diagram) {
+    std::map<std::tuple<int, int, std::string>, std::size_t> known;
+    for (const Diagram::EventWire& wire : diagram.event_wires()) {
+      const LeafEvent from = wire.from.system->event_source(wire.from.index),
+                      to = wire.to.system->event_target(wire.to.index);
+      const std::string words = text(nth(from.leaf->event_output_names(), from.index), " → ",
+                                     nth(to.leaf->event_input_names(), to.index));
+      const int begin = block_of_.at(from.leaf), end = block_of_.at(to.leaf);
+      const auto [one, is_new] =
+          known.try_emplace({begin, end, words}, picture_.event_wires.size());
+      if (is_new)
+        picture_.event_wires.push_back({begin, end, words});
+      else
+        ++picture_.event_wires[one->second].count;
+    }
+  }
+
   /// A port at a border has the colour of the signal through it.
   void show(int block, Picture::Flow flow) {
     Block& port = nth(picture_.blocks, block);
@@ -215,6 +237,7 @@ class Drawing {
   Readings readings_;
   std::unordered_map<const LeafSystem*, int> number_;
   std::unordered_map<const System*, Ends> ends_;
+  std::unordered_map<const LeafSystem*, int> block_of_;  // the drawn block that a leaf is in
   Picture picture_;
 };
 
@@ -226,6 +249,10 @@ Picture picture(const System& system, const PictureOptions& options) {
 
 std::string dimensions_of(const Picture::Wire& wire) {
   return wire.columns > 0 ? text(wire.width / wire.columns, " x ", wire.columns) : text(wire.width);
+}
+
+std::string event_label(const Picture::EventWire& wire) {
+  return wire.count == 1 ? wire.words : text(wire.words, " (", wire.count, ")");
 }
 
 bool obvious(const std::vector<std::string>& ports, std::string_view usual) {

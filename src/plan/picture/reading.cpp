@@ -44,12 +44,15 @@ void mark_events(const Declarations& d, std::vector<Reading>& inputs) {
   for (const TimeEvent& event : d.time_events) {
     if (event.update) mark(inputs, event.inputs, &Reading::event);
   }
+  for (const EventInputDeclaration& input : d.event_inputs)
+    mark(inputs, input.inputs, &Reading::event);
   for (const History& history : d.histories)
     mark(inputs, std::vector{history.input}, &Reading::event);
 }
 
 bool has_events(const Declarations& d) {
-  return !d.zero_crossings.empty() || !d.edge_resets.empty() || !d.time_events.empty();
+  return !d.zero_crossings.empty() || !d.edge_resets.empty() || !d.time_events.empty() ||
+         !d.event_inputs.empty();
 }
 
 }  // namespace

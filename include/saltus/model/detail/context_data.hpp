@@ -148,6 +148,13 @@ void fields_of(Archive& archive, PendingExecutions& pending) {
   });
   archive.field("scheduled", pending.scheduled);
   archive.field("draws", pending.draws);
+  archive.optional_records("deliveries", pending.deliveries, [](auto& one, auto& delivery) {
+    one.field("leaf", delivery.leaf);
+    one.field("event", delivery.event);
+    one.field("entry", delivery.entry);
+    one.field("delay", delivery.delay);
+    one.field("due", delivery.due);
+  });
 }
 
 /// The values of one leaf.

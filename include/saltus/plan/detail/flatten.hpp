@@ -9,6 +9,7 @@
 #include "saltus/base/list.hpp"
 #include "saltus/model/computed_parameter.hpp"
 #include "saltus/plan/detail/controls.hpp"
+#include "saltus/plan/detail/event_wiring.hpp"
 #include "saltus/plan/detail/lists.hpp"
 #include "saltus/plan/detail/order.hpp"
 
@@ -237,6 +238,7 @@ inline Plan flatten(const System& system, const Replacements& replacements = {})
   const LeafNumbers numbers(plan);
   add_wires(plan, structure, numbers);
   if (!structure.controlled.empty()) add_controls(plan, structure, numbers);
+  if (!structure.event_wires.empty()) add_event_wires(plan, structure, numbers);
   add_needs(plan);
   plan.computed = computed_parameters(structure);
   return plan;
@@ -248,6 +250,7 @@ inline void lay_out(Plan& plan) {
   add_shapes(plan);
   check_shapes(plan);
   add_places(plan);
+  if (plan.event_wires.any()) place_weight(plan);
 }
 
 }  // namespace saltus::detail

@@ -77,7 +77,11 @@ inline void add_reset_roots(const PlanLeaf& leaf, std::vector<int>& roots) {
   for (const auto& event : d.time_events) {
     if (event.update) append_inputs(roots, event.inputs, leaf);
   }
-  if (roots.size() > before || !d.time_events.empty()) append(roots, leaf.relations);
+  if (leaf.receives) {
+    for (const auto& input : d.event_inputs) append_inputs(roots, input.inputs, leaf);
+  }
+  if (roots.size() > before || leaf.receives || !d.time_events.empty())
+    append(roots, leaf.relations);
 }
 
 inline void add_history_roots(const PlanLeaf& leaf, std::vector<int>& roots) {

@@ -18,11 +18,11 @@ namespace saltus {
 class Calendar {
  public:
   /// `z`: the discrete state of the run, which the ticks of some events depend on.
-  /// `execution` [s]: the time at which the next execution of a queued zero crossing is due; null if
-  /// the scene has none.
+  /// `waiting` [s]: the time at which the next execution of a queued zero crossing, or the next
+  /// delivery of an event wire, is due; null if the scene has none.
   explicit Calendar(const Plan& plan, const Eigen::VectorXd* z = nullptr,
-                    const double* execution = nullptr)
-      : plan_(&plan), z_(z), execution_(execution), tick_(plan.schedule.size(), 0) {}
+                    const double* waiting = nullptr)
+      : plan_(&plan), z_(z), waiting_(waiting), tick_(plan.schedule.size(), 0) {}
 
   /// Throws ModelError for a schedule whose ticks at t cannot be told apart.
   void check(double t) const {
@@ -53,7 +53,7 @@ class Calendar {
       any = std::min(any, t);
       if (!by_state(plan_->schedule[i])) counted = std::min(counted, t);
     }
-    if (execution_ != nullptr) any = std::min(any, *execution_);
+    if (waiting_ != nullptr) any = std::min(any, *waiting_);
     return counted <= any + slack(any) ? counted : any;
   }
 
@@ -138,7 +138,7 @@ class Calendar {
 
   const Plan* plan_;
   const Eigen::VectorXd* z_;
-  const double* execution_;
+  const double* waiting_;
   std::vector<std::int64_t> tick_;
 };
 

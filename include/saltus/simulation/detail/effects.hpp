@@ -4,6 +4,7 @@
 #include <string>
 
 #include "saltus/simulation/detail/contact_guards.hpp"
+#include "saltus/simulation/detail/deliveries.hpp"
 #include "saltus/simulation/detail/executions.hpp"
 
 namespace saltus {
@@ -14,14 +15,15 @@ namespace saltus {
 class Effects {
  public:
   Effects(const Plan& plan, const GuardSet& guards, const Edges& edges, Holds& holds,
-          ContactGuards& contacts, Executions& executions, Transition& transition, Journal& journal,
-          Present& present)
+          ContactGuards& contacts, Executions& executions, Deliveries& deliveries,
+          Transition& transition, Journal& journal, Present& present)
       : plan_(&plan),
         guards_(&guards),
         edges_(&edges),
         holds_(&holds),
         contacts_(&contacts),
         executions_(&executions),
+        deliveries_(&deliveries),
         transition_(&transition),
         journal_(&journal),
         present_(&present) {}
@@ -37,6 +39,7 @@ class Effects {
   };
 
   void run_update(const Action& action, int source);
+  void run_execution(const Action& action);
   void run_reset(const Action& action, int source);
   Effect effect_of(const Action& action);
   bool write(const Effect& effect, int leaf, const std::string& source);
@@ -48,6 +51,7 @@ class Effects {
   Holds* holds_;
   ContactGuards* contacts_;
   Executions* executions_;
+  Deliveries* deliveries_;
   Transition* transition_;
   Journal* journal_;
   Present* present_;

@@ -25,23 +25,20 @@ class Executions {
   void require_fits(const Context& context) const;
   /// A run begins with the executions that wait in a context.
   void begin(const Context& from);
-  /// What waits, for a context; null if the run has scheduled nothing.
-  std::shared_ptr<const PendingExecutions> save() const;
+  /// What waits, for a context.
+  PendingExecutions save() const;
   void open();
   void undo() { queue_.undo(); }
 
-  /// [s] The time at which the next execution is due; null if the scene has none.
-  const double* next() const noexcept { return any_ ? &queue_.next() : nullptr; }
-  /// Whether an execution that this instant has scheduled is due before all that waited: the solver
-  /// may have stepped beyond it.
-  bool stops_earlier() const { return any_ && queue_.next() < next_before_; }
+  /// [s] The time at which the next execution is due; infinite if none waits.
+  double next() const noexcept { return queue_.next(); }
   /// Takes the first of the executions that are due, and adds it to the actions of the pass. False
   /// if none is due, or if the pass cancels some of them.
   bool collect();
   /// Schedules or cancels, by the guard that fired.
   void trigger(const Action& action);
-  /// Carries out the execution that `collect` found.
-  void execute(const Action& action);
+  /// Carries out the execution that `collect` found; the guard whose execution it is.
+  Index execute(const Action& action);
   /// Whether an execution was carried out in this instant.
   bool executed() const noexcept { return chain_.executions > 0; }
   /// Whether one was carried out that an execution had set off, in this instant or before.
@@ -82,8 +79,7 @@ class Executions {
   ExecutionQueue queue_;
   ExecutionChain chain_;
   bool set_off_ = false;
-  double next_before_ = std::numeric_limits<double>::infinity();  // [s] due before this instant
-  WaitingExecution taken_;                                        // the execution of this pass
+  WaitingExecution taken_;  // the execution of this pass
   Due due_;
   std::vector<double> g_;  // the guards before executions
 };

@@ -1,6 +1,8 @@
 // Instant: all that happens at one time value, in passes, until nothing changes.
 #pragma once
 
+#include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -20,6 +22,7 @@ namespace saltus {
 ///     ContactGuards                       the guards of blocks at rest
 ///     Relations, CrossingArming           truths; sides of zero crossings
 ///     Executions                          the queue: what waits, and which comes first
+///     Deliveries                          what event wires carry, and what they carry later
 ///     Collector, Effects                  the actions of a pass; carrying them out
 class Instant {
  public:
@@ -43,9 +46,21 @@ class Instant {
   /// `longest` [s] is the time to the end of the run.
   Outcome run(double t, const std::vector<int>& due, double longest, bool at_start = false);
 
-  /// The executions that wait, of the run that begins or continues.
-  Executions& executions() noexcept { return executions_; }
-  const Executions& executions() const noexcept { return executions_; }
+  /// Whether something may wait: an execution, or a delivery of an event wire.
+  bool may_wait() const noexcept { return executions_.any() || deliveries_.any(); }
+  /// [s] The time at which the next of these is due; null if nothing may wait.
+  const double* next_due() const noexcept { return may_wait() ? &next_due_ : nullptr; }
+  /// Throws ModelError for a context in which something waits that the scene does not have.
+  void require_fits(const Context& context) const;
+  /// A run begins with what waits in a context.
+  void begin_queues(const Context& from);
+  /// What waits, for a context; null if nothing ever waited.
+  std::shared_ptr<const PendingExecutions> pending() const;
+  /// Whether something that the last instant has scheduled is due before all that waited: the solver
+  /// may have stepped beyond it.
+  bool stops_earlier() const noexcept { return may_wait() && next_due_ < due_before_; }
+  /// Whether executions, or deliveries, set each other off.
+  bool set_off() const noexcept { return executions_.set_off() || deliveries_.set_off(); }
 
   /// Undoes the instant under way, whose effects failed: guards, holds, signals, events and values
   /// are as before it, and the guards that fired will fire again.
@@ -88,6 +103,8 @@ class Instant {
   void select_guards();
   bool follow_controls();
   void look_at_guards();
+  void open_queues();
+  void find_next_due();
 
   const Plan& plan() const { return machine_->plan(); }
 
@@ -106,10 +123,13 @@ class Instant {
   Relations relations_;
   CrossingArming crossings_;
   Executions executions_;
+  Deliveries deliveries_;
   Collector collector_;
   Effects effects_;
   int jump_ = 0;
   Before before_;
+  double next_due_ = std::numeric_limits<double>::infinity();  // [s]
+  double due_before_ = next_due_;                              // before this instant
 };
 
 }  // namespace saltus

@@ -53,6 +53,9 @@ class IslandRuns {
                   const std::vector<std::pair<std::string, int>>& sources);
   void require_fits(const Context& context) const;
   Context part_of(const Context& whole, std::size_t k) const;
+  std::shared_ptr<const PendingExecutions> pending_of(const PendingExecutions& whole,
+                                                      std::size_t k) const;
+  void add_pending(PendingExecutions& whole, const PendingExecutions& part, std::size_t k) const;
   void require_ready(double t_end) const;
   void run_all(double t_end);
   double run_in_turn(double t_end);

@@ -45,6 +45,15 @@ class Transition {
   /// wrote to the states and the mode of its leaf (3.2, 3.3). Returns whether it had an effect: it
   /// wrote a state, or changed the mode.
   bool run(const Call& call);
+  /// A delivery of an event wire.
+  struct Arrival {
+    int leaf, input;
+    Index entry;
+    double weight;
+    double t;  ///< [s]
+  };
+  /// Runs the reset map of an event input, as `run` does.
+  void deliver(const Arrival& arrival);
   /// The number that a function gives for the values that a reset map would see now.
   double number(const NumberOf& number, int leaf, Index entry, double t);
   /// What a reset map would write now; nothing is written.
@@ -90,12 +99,14 @@ class Transition {
   At seen(int leaf, Index entry, double t);
   Inputs inputs_before(int leaf);
   Wrote apply(const Call& call, VectorRef x, VectorRef z, int& mode);
+  Wrote receive(const Arrival& arrival, VectorRef x, VectorRef z, int& mode);
   void count(int leaf, Wrote wrote);
 
   Machine* machine_;
   Tangents* tangents_ = nullptr;
   Eigen::VectorXd x_minus_, z_minus_, y_minus_, x_next_, z_next_;
   Bases minus_ = {};  // the values before the instant
+  Bases now_ = {};    // the present values, for deliveries
   List<int> modes_next_, modes_before_;
   List<int> modes_minus_;    // before the instant, once a commit has changed a mode
   bool wrote_mode_ = false;  // in the last pass: modes_next_ may differ from the modes

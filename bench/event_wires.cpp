@@ -1,0 +1,129 @@
+// What does a delivery of an event wire cost, and how does it grow with blocks and wires? A source
+// beats a thousand times; 0, 1 or 100 of its wires lead to some of n counters, while each of the
+// other counters has 100 wires of its own, which never fire. Then n integrate-and-fire cells with
+// 100 targets each: the time for each spike. `event_wires 10000` runs the network of that size.
+#include <random>
+#include <saltus/library/library.hpp>
+
+#include "interleave.hpp"
+#include "runner.hpp"
+#include "sheet.hpp"
+
+namespace {
+
+using namespace saltus;
+
+/// The event `beat` at each ms.
+class Source final : public LeafSystem {
+ public:
+  Source() : LeafSystem("source") { declare_time_event({.name = "beat", .period = 1e-3}); }
+};
+
+/// z counts what arrives; the event `never` is one of a far time.
+class Counter final : public LeafSystem {
+ public:
+  explicit Counter(const std::string& name) : LeafSystem(name) {
+    declare_discrete_state(Eigen::VectorXd::Zero(1));
+    declare_time_event({.name = "never", .offset = 1e9});
+    declare_event_input({.name = "count", .reset_map = &Counter::count});
+  }
+
+ private:
+  void count(const At& at, Delivery& next) const {
+    next.set_discrete_state({at.z[0] + next.weight()});
+  }
+};
+
+/// v' = current - v, threshold 1, reset to 0.
+class Cell final : public LeafSystem {
+ public:
+  Cell(const std::string& name, double current, double start)
+      : LeafSystem(name), current_(current) {
+    declare_continuous_state(
+        {.initial = Eigen::VectorXd::Constant(1, start), .ode = method<&Cell::ode>});
+    declare_zero_crossing({.name = "fire",
+                           .guard = method<&Cell::beyond>,
+                           .reset_map = &Cell::reset,
+                           .direction = Direction::negative_then_non_negative});
+    declare_event_input({.name = "synapse", .reset_map = &Cell::receive});
+  }
+
+ private:
+  double ode(const At& at) const { return current_ - at.x[0]; }
+  double beyond(const At& at) const { return at.x[0] - 1.0; }
+  void reset(const At&, Next& next) const { next.set_continuous_state({0.0}); }
+  void receive(const At& at, Delivery& next) const {
+    next.set_continuous_state({at.x[0] + next.weight()});
+  }
+  double current_;
+};
+
+constexpr int fan = 100;
+
+bench::Runner counters(int n, int targets) {
+  DiagramBuilder builder;
+  const Source& source = builder.add<Source>();
+  std::vector<const Counter*> all;
+  for (int k = 0; k < n; ++k) all.push_back(&builder.add<Counter>(text("c", k)));
+  std::mt19937 random(1);
+  const auto any = [&] { return all[random() % all.size()]->event_input("count"); };
+  for (const Counter* one : all)
+    for (int i = 0; i < fan; ++i) builder.connect_event(one->event_output("never"), any());
+  for (int i = 0; i < targets; ++i)
+    builder.connect_event(source.event_output("beat"), any(), 1.0, 1e-4);
+  const auto system = std::make_shared<const Diagram>(builder.build());
+  return {system, system->create_context(), 1.0, {.record_events = false}};
+}
+
+bench::Runner network(int n) {
+  DiagramBuilder builder;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> current(1.5, 3.0), start(0.0, 1.0);
+  std::vector<const Cell*> all;
+  for (int k = 0; k < n; ++k)
+    all.push_back(&builder.add<Cell>(text("c", k), current(random), start(random)));
+  for (const Cell* one : all)
+    for (int i = 0; i < fan; ++i)
+      builder.connect_event(one->event_output("fire"),
+                            all[random() % all.size()]->event_input("synapse"), 1e-4, 0.05);
+  const auto system = std::make_shared<const Diagram>(builder.build());
+  return {system, system->create_context(), 100.0 / n, {.ode_solver_method = Method::dopri5}};
+}
+
+void deliveries(bench::Sheet& sheet, int n) {
+  bench::Runner none = counters(n, 0), one = counters(n, 1), hundred = counters(n, fan);
+  const auto times =
+      bench::interleave({[&] { none(); }, [&] { one(); }, [&] { hundred(); }}, 5, 1e-2);
+  sheet.add({{"scene", "counters"},
+             {"n", n},
+             {"wires", n * fan},
+             {"a beat [us]", times[0].time * 1e3},
+             {"a delivery [ns]", (times[2].time - times[1].time) * 1e6 / (fan - 1)}});
+}
+
+void spikes(bench::Sheet& sheet, int n) {
+  const double start = bench::processor_time();
+  bench::Runner run = network(n);
+  const double made = bench::processor_time();
+  run();
+  const double ended = bench::processor_time();
+  const auto events = static_cast<double>(run.results().events.size());
+  sheet.add({{"scene", "cells"},
+             {"n", n},
+             {"wires", n * fan},
+             {"making [s]", made - start},
+             {"spikes", events},
+             {"a spike [us]", (ended - made) * 1e6 / events}});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bench::Sheet sheet("event_wires", "What does a delivery of an event wire cost?");
+  if (argc == 2) {
+    spikes(sheet, std::atoi(argv[1]));
+    return 0;
+  }
+  for (const int n : {100, 1000, 10'000}) deliveries(sheet, n);
+  for (const int n : {100, 1000, 10'000}) spikes(sheet, n);
+}

@@ -1,0 +1,104 @@
+// Deliveries: firings, and the reset maps that they reach.
+#include "saltus/simulation/detail/deliveries.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "saltus/plan/detail/event_wiring.hpp"
+#include "saltus/simulation/detail/calendar.hpp"
+
+namespace saltus {
+
+Deliveries::Deliveries(Machine& machine, Transition& transition, Present& present)
+    : machine_(&machine),
+      transition_(&transition),
+      present_(&present),
+      any_(machine.plan().event_wires.any()) {}
+
+void throw_no_such_wire(const Plan& plan, const PendingDelivery& one) {
+  throw ModelError(text("the context is not one of this system: a delivery waits of event ",
+                        one.event, ", entry ", one.entry, ", of block '", plan.leaf(one.leaf).path,
+                        "', from which no event wire with a delay of ", one.delay,
+                        " s starts; create the context with system.create_context()"));
+}
+
+// --- from run to run
+
+/// The batch of wires of a delivery; -1 if the scene has no such wires.
+int Deliveries::batch_of(const PendingDelivery& one) const {
+  const int source = detail::event_source_of(plan(), one.leaf, one.event, one.entry);
+  if (!any_ || source < 0) return -1;
+  for (int batch = wires().first_batch[source]; batch < wires().first_batch[source + 1]; ++batch)
+    if (wires().batches[batch].delay == one.delay) return batch;
+  return -1;
+}
+
+void Deliveries::require_fits(const Context& context) const {
+  if (context.pending() == nullptr) return;
+  for (const PendingDelivery& one : context.pending()->deliveries) {
+    if (batch_of(one) < 0) throw_no_such_wire(plan(), one);
+  }
+}
+
+void Deliveries::begin(const Context& from) {
+  if (!any_) return;
+  queue_.clear();
+  fired_.clear(), arriving_.clear();
+  if (from.pending() == nullptr) return;
+  for (const PendingDelivery& one : from.pending()->deliveries) queue_.add(one.due, batch_of(one));
+  queue_.open();
+}
+
+std::vector<PendingDelivery> Deliveries::save() const {
+  std::vector<PendingDelivery> saved;
+  for (const auto& [key, number] : queue_.waiting()) {
+    const EventWires::Batch& batch = wires().batches[number];
+    const detail::EventOrigin from = detail::event_origin_of(plan(), batch.source);
+    saved.push_back({from.leaf, from.event, from.entry, batch.delay, key.first});
+  }
+  return saved;
+}
+
+void Deliveries::open() {
+  queue_.open();
+  fired_.clear(), arriving_.clear();
+  delivered_ = set_off_ = false;
+}
+
+// --- in an instant
+
+void Deliveries::fire(int source) {
+  for (int batch = wires().first_batch[source]; batch < wires().first_batch[source + 1]; ++batch) {
+    const double delay = wires().batches[batch].delay;
+    if (delay == 0.0) {
+      fired_.push_back(batch);
+      continue;
+    }
+    queue_.add(present_->t + delay, batch);
+    set_off_ = set_off_ || delivered_;
+  }
+}
+
+bool Deliveries::collect() {
+  const double now = present_->t + Calendar::slack(present_->t);
+  while (queue_.next() <= now) fired_.push_back(queue_.take());
+  for (const int number : fired_) {
+    const EventWires::Batch& batch = wires().batches[number];
+    for (int target = batch.first; target < batch.last; ++target) arriving_.push_back(target);
+  }
+  if (fired_.size() > 1)
+    std::ranges::stable_sort(arriving_, {}, [this](int i) { return wires().targets[i].number; });
+  fired_.clear();
+  delivered_ = delivered_ || !arriving_.empty();
+  return !arriving_.empty();
+}
+
+void Deliveries::run() {
+  for (const int i : arriving_) {
+    const EventWires::Target& target = wires().targets[i];
+    transition_->deliver({target.leaf, target.input, target.entry, target.weight, present_->t});
+  }
+  arriving_.clear();
+}
+
+}  // namespace saltus
