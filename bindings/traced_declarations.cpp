@@ -110,6 +110,8 @@ void DeclarationWriter::put(const Slot& slot) {
       edge.inputs = inputs_of(original_, slot);
       return;
     }
+    case Role::derivatives:  // it is called
+      return;
     case Role::event_input: {
       EventInputDeclaration& input = declared_.event_inputs[function.index];
       // The function itself as a reset map: the tape calls it where its own result is not finite.

@@ -135,10 +135,10 @@ void declare_zero_crossing(py::handle self, py::object guard, py::object reset_m
   crossing.guard = leaf.vector_function(add(std::move(guard), "guard", Role::guard));
   if (!reset_map.is_none())
     crossing.reset_map = leaf.reset_map(add(std::move(reset_map), "reset map", Role::reset_map));
-  const auto derivatives = [&](const char* name, std::string_view what) {
-    const py::object given = options.raw(name);
-    if (given.is_none()) return DerivativesFunction();
-    return leaf.derivatives_function(add(given, what, Role::derivatives));
+  const auto derivatives = [&](const char* option, std::string_view what) {
+    const py::object function = options.raw(option);
+    if (function.is_none()) return DerivativesFunction();
+    return leaf.derivatives_function(add(function, what, Role::derivatives));
   };
   crossing.guard_derivatives = derivatives("guard_derivatives", "derivatives of guard");
   crossing.reset_derivatives = derivatives("reset_derivatives", "derivatives of reset map");

@@ -48,10 +48,11 @@ ChainRule::ChainRule(Machine& machine, LinearColumns columns)
   for (const int leaf : plan_.odes) odes_.push_back(function_of_rates(plan_, leaf));
 }
 
-/// Whether a node keeps its value where the state moves.
-bool ChainRule::is_constant(const Node& node) const {
-  if (node.relation || node.boolean) return true;
-  return samples(plan_.output_of(node).reads);
+/// The columns by which a node has a derivative. A truth has none. A held output keeps its value where
+/// the state moves, and follows the parameters of its block, as the level of a Step does.
+ChainRule::Follows ChainRule::follows(const Node& node) const {
+  if (node.relation || node.boolean || detail::is_fixed(plan_, node)) return Follows::nothing;
+  return samples(plan_.output_of(node).reads) ? Follows::parameters : Follows::all;
 }
 
 void ChainRule::at(double t, const Forced& forced) {
@@ -81,8 +82,10 @@ void ChainRule::evaluate(int i, const Forced& forced) {
       value[k] = value[k] > 0.0 || (plan_.relation_of(node).true_at_zero && value[k] == 0.0);
   }
   if (forced.node == i) value[forced.entry] = value[forced.entry] == 0.0;
-  if (!is_constant(node) && !detail::is_fixed(plan_, node))
+  follows_ = follows(node);
+  if (follows_ != Follows::nothing)
     y_.middleRows(node.place.offset, node.place.size) = derivative(*functions_[i]);
+  follows_ = Follows::all;
 }
 
 void ChainRule::call(const LeafFunction& function, double* out) {
@@ -123,9 +126,9 @@ std::vector<std::string> ChainRule::called() const { return called_; }
 
 /// Whether a value moves with one of the columns.
 bool ChainRule::moves(const ReadValue& read) const {
-  if (read.space == Space::x) return true;
-  if (read.space == Space::z) return false;
   if (read.space == Space::p) return columns_.of_parameter[read.index] >= 0;
+  if (read.space == Space::z || follows_ == Follows::parameters) return false;
+  if (read.space == Space::x) return true;
   return !y_.row(read.index).isZero(0.0);
 }
 

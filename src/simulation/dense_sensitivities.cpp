@@ -7,8 +7,6 @@
 
 namespace saltus {
 
-namespace {
-
 /// The derivatives of one trajectory without parts.
 class TangentReader {
  public:
@@ -40,8 +38,6 @@ class TangentReader {
   TangentProbe probe_;
   Eigen::MatrixXd state_, signals_;
 };
-
-}  // namespace
 
 /// Copies what each island has to its rows and columns among those of all.
 struct DenseSensitivities::Reader {

@@ -63,6 +63,8 @@ class ChainRule {
   std::vector<std::string> called() const;
 
  private:
+  enum class Follows { nothing, parameters, all };
+
   Machine& machine_;
   const Plan& plan_;
   LinearColumns columns_;
@@ -70,6 +72,7 @@ class ChainRule {
   CalledDerivatives of_called_;
   FlowVariables variables_;
   double t_ = 0.0;
+  Follows follows_ = Follows::all;  // of the function under way
   std::vector<int> order_, truths_;
   List<char> wanted_;                            // whether a node reaches a rate or a signal
   List<std::optional<LeafFunction>> functions_;  // of the nodes in order_
@@ -80,7 +83,7 @@ class ChainRule {
   std::vector<std::string> called_;
   std::string obstacle_;
 
-  bool is_constant(const Node& node) const;
+  Follows follows(const Node& node) const;
   void evaluate(int node, const Forced& forced);
   void call(const LeafFunction& function, double* out);
   bool moves(const ReadValue& read) const;
