@@ -158,6 +158,7 @@ void Tangents::evaluated() {
 
 void Tangents::close() {
   events_.close(columns_.t);
+  look_at_waiting();
   if (machine_->carries())
     for (Index k = 0; k < size(); ++k) lose(k, "", "a block is carried by a moving surface");
   TangentColumns fixed = columns_;

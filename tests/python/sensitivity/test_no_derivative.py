@@ -217,3 +217,78 @@ def test_a_run_that_begins_just_before_the_rest_has_a_gap(after):
     assert len(entered) == 1
     lost(results, "the run began between the last events before the rest")
     assert results.sensitivity_gaps[0].event == "ball.bounce"
+
+
+def at_zero(slope, direction, *, effect=True, **options):
+    """x' = slope, y' = 0.3 x, and a guard x - p that is at zero at the start."""
+    block = leaf([1.0, 0.0], lambda t, s, p: [slope, 0.3 * s.continuous_state[0]], p=1.0)
+    block.declare_zero_crossing(
+        lambda t, s, p: s.continuous_state[0] - p,
+        (lambda t, s, p: s.with_continuous_state(s.continuous_state + np.array([0.0, 5.0])))
+        if effect
+        else None,
+        name="g",
+        direction=direction,
+        **options,
+    )
+    return block
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+@pytest.mark.parametrize("slope", [-1.0, 1.0])
+@pytest.mark.parametrize("direction", ["falling", "rising", "crosses_zero"])
+@pytest.mark.parametrize(
+    "options",
+    [{}, {"at_start": "ignore"}, {"terminal": True, "effect": False}, {"terminal": True}],
+    ids=str,
+)
+def test_a_guard_at_zero_at_the_start_has_a_gap_where_a_shift_fires_it(
+    options, direction, slope, python
+):
+    """A shift of x or p by one sign puts the guard on the side from which it fires."""
+    fires = direction == "crosses_zero" or (direction == "rising") == (slope > 0.0)
+    results = saltus.simulate(
+        at_zero(slope, direction, **options), (0.0, 1.0), sensitivity=["x[0]", "p"], python=python
+    )
+    if fires:
+        return lost(results, "zero")
+    assert results.sensitivity_gaps == ()
+    expected = np.array([[1.0, 0.0], [0.3, 0.0]])
+    assert results.sensitivities.continuous_state == pytest.approx(expected, abs=1e-9)
+
+
+@pytest.mark.parametrize("direction", ["falling", "rising", "crosses_zero"])
+@pytest.mark.parametrize("method", ["dopri5", "bdf", "radau"])
+def test_a_monitor_at_zero_changes_no_derivative(direction, method):
+    results = saltus.simulate(
+        at_zero(1.0, direction, effect=False),
+        (0.0, 1.0),
+        sensitivity=["x[0]"],
+        ode_solver_method=method,
+    )
+    assert results.sensitivity_gaps == ()
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+@pytest.mark.parametrize("start", [1.0, 0.5])
+def test_a_relation_that_a_write_puts_at_its_root_has_a_gap(start, python):
+    """x' = 3 above p and 1 below. From the root itself, at the start or after a time event, the
+    derivative by x is 1 and 3 on its two sides.
+    """
+    block = leaf([start], lambda t, s, p: [3.0 if s.relations[0] else 1.0], p=1.0)
+    block.declare_relation(lambda t, s, p: s.continuous_state[0] - p, name="above")
+    block.declare_time_event(lambda t, s, p: s.with_continuous_state([p]), times=[0.25])
+    results = saltus.simulate(block, (0.0, 1.0), sensitivity=["p"], python=python)
+    if start == 1.0:
+        return lost(results, "the flow takes it across")
+    # x = p moves with the root: no shift of p takes it off. x = p + 3 (t - 0.25) has slope 1 by p.
+    assert results.sensitivity_gaps == ()
+    assert results.sensitivities.continuous_state.ravel() == pytest.approx([1.0], abs=1e-9)
+
+
+def test_a_kink_at_its_root_keeps_its_derivative():
+    """x' = 1, y' = |x|: from x = 0 on, y(1) = 1/2 and dy/dx0 = 1 on both sides."""
+    block = leaf([0.0, 0.0], lambda t, s: [1.0, np.abs(s.continuous_state[0])])
+    results = saltus.simulate(block, (0.0, 1.0), sensitivity=["x[0]"])
+    assert results.sensitivity_gaps == ()
+    assert results.sensitivities.continuous_state[1] == pytest.approx([1.0], abs=1e-7)

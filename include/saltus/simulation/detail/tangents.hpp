@@ -87,6 +87,9 @@ class Tangents {
   void call_declared(const Transition::Call& call, const DerivativesFunction& derivatives,
                      const double* x_next, const double* z_next, int mode);
   void merge(const MovedTime& moved, bool first);
+  void look_at_waiting();
+  void look_at_waiting(std::size_t guard, const Eigen::VectorXd& flow);
+  bool decides(const GuardGroup& group, Index entry, const Eigen::VectorXd& flow);
   /// Dense output begins here.
   void open_trajectory();
   void lose(Index k, const std::string& event, const std::string& reason) {

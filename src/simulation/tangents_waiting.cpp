@@ -1,0 +1,78 @@
+// Tangents: guards that wait at zero at the end of an instant.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "saltus/simulation/detail/tangents.hpp"
+
+namespace saltus {
+
+namespace {
+
+/// A slope, or a column, of a guard that is smaller than this part of its terms is zero: those of
+/// called functions are differences with errors of 1e-10 (see TangentProbe), which terms that cancel
+/// amplify.
+constexpr double zero_part = 1e-6;
+/// Two flows are the same if they differ by no more than this part.
+constexpr double same_flow = 1e-9;
+
+/// Whether a guard that moves from zero with this slope would fire if it came from the other side.
+bool fires_along(Direction direction, double slope) {
+  return slope < 0.0 ? fires(direction, 1, -1) : fires(direction, -1, 1);
+}
+
+}  // namespace
+
+/// A guard may wait at exactly zero where a run began or where a write has put it, and the flow take it
+/// on in its firing direction. It does not fire then. For a parameter that moves it to the side from
+/// which it comes there is an event, and for the other sign there is none.
+void Tangents::look_at_waiting() {
+  const auto waits = [this](std::size_t k) {
+    const Guard& guard = (*guards_)[k];
+    return guard.phase == saltus::Phase::waiting && std::abs(guards_->g[k]) <= guard.error;
+  };
+  const std::vector<std::size_t>& active = guards_->active().all;
+  if (std::ranges::none_of(active, waits)) return;
+  const Eigen::VectorXd flow = probe_.flow(t_, machine_->x.data());
+  for (const std::size_t k : active)
+    if (waits(k) && !(*guards_)[k].monitor) look_at_waiting(k, flow);
+}
+
+void Tangents::look_at_waiting(std::size_t number, const Eigen::VectorXd& flow) {
+  const Guard& record = (*guards_)[number];
+  const GuardGroup& group = machine_->plan().guard(record.group);
+  if (group.is_opaque() || record.rests) return;
+  const GuardTangent guard =
+      flow_.guard(t_, machine_->x.data(), static_cast<Index>(number), columns_);
+  const double slope = guard.by_state.dot(flow) + guard.by_time;
+  const double terms = guard.by_state.cwiseAbs().dot(flow.cwiseAbs()) + std::abs(guard.by_time);
+  if (!(std::abs(slope) > zero_part * terms)) return;
+  if (group.is_crossing() && !fires_along(record.direction, slope)) return;
+  for (Index k = 0; k < size(); ++k) {
+    const double all = guard.by_state.cwiseAbs().dot(columns_.x.col(k).cwiseAbs()) +
+                       terms * std::abs(columns_.t[k]);  // they cancel at the guard's own root
+    if (!(std::abs(guard.columns[k]) > zero_part * all)) continue;
+    if (!group.is_crossing() && !decides(group, record.entry, flow)) return;
+    lose(k, group.name, "the guard is at zero, and the flow takes it across");
+  }
+}
+
+/// Whether a relation decides more than a kink of the flow: the flow itself, or an edge.
+bool Tangents::decides(const GuardGroup& group, Index entry, const Eigen::VectorXd& flow) {
+  const auto watched = [&](const EdgeWatch& edge) {
+    return std::ranges::find(edge.relations, group.index) != edge.relations.end();
+  };
+  if (std::ranges::any_of(machine_->plan().edges, watched)) return true;
+  if (flow.size() == 0) return false;
+  Machine& probe = probe_.at(machine_->x.data());
+  double& truth = probe.truth_at(group.index, entry);
+  const double before = std::exchange(truth, truth == 0.0 ? 1.0 : 0.0);
+  probe.evaluate_instant(t_);
+  Eigen::VectorXd other(flow.size());
+  probe.derivative(t_, machine_->x.data(), other.data());
+  truth = before;
+  probe.evaluate_instant(t_);
+  return !((other - flow).cwiseAbs().maxCoeff() <= same_flow * flow.cwiseAbs().maxCoeff());
+}
+
+}  // namespace saltus
