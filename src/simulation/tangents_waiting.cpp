@@ -15,6 +15,10 @@ namespace {
 constexpr double zero_part = 1e-6;
 /// Two flows are the same if they differ by no more than this part.
 constexpr double same_flow = 1e-9;
+/// [of the state] A shift that shows a bend of the flow by 1e-6 of it, far above its rounding.
+constexpr double bend_shift = 1e-6;
+/// Two slopes of the flow are the same if they differ by no more than this part.
+constexpr double same_slope = 1e-3;
 
 /// Whether a guard that moves from zero with this slope would fire if it came from the other side.
 bool fires_along(Direction direction, double slope) {
@@ -46,14 +50,18 @@ void Tangents::look_at_waiting(std::size_t number, const Eigen::VectorXd& flow) 
       flow_.guard(t_, machine_->x.data(), static_cast<Index>(number), columns_);
   const double slope = guard.by_state.dot(flow) + guard.by_time;
   const double terms = guard.by_state.cwiseAbs().dot(flow.cwiseAbs()) + std::abs(guard.by_time);
-  if (!(std::abs(slope) > zero_part * terms)) return;
-  if (group.is_crossing() && !fires_along(record.direction, slope)) return;
+  const bool rests = !(std::abs(slope) > zero_part * terms);
+  if (group.is_crossing() && (rests || !fires_along(record.direction, slope))) return;
   for (Index k = 0; k < size(); ++k) {
     const double all = guard.by_state.cwiseAbs().dot(columns_.x.col(k).cwiseAbs()) +
                        terms * std::abs(columns_.t[k]);  // they cancel at the guard's own root
     if (!(std::abs(guard.columns[k]) > zero_part * all)) continue;
-    if (!group.is_crossing() && !decides(group, record.entry, flow)) return;
-    lose(k, group.name, "the guard is at zero, and the flow takes it across");
+    if (!group.is_crossing() && !decides(group, record.entry, flow) &&
+        !(rests && bends(group, record.entry, k)))
+      continue;
+    lose(k, group.name,
+         rests ? "the relation rests at its root"
+               : "the guard is at zero, and the flow takes it across");
   }
 }
 
@@ -64,15 +72,45 @@ bool Tangents::decides(const GuardGroup& group, Index entry, const Eigen::Vector
   };
   if (std::ranges::any_of(machine_->plan().edges, watched)) return true;
   if (flow.size() == 0) return false;
-  Machine& probe = probe_.at(machine_->x.data());
+  const Eigen::VectorXd other = flow_with_truth(group, entry, true, 0, 0.0);
+  return !((other - flow).cwiseAbs().maxCoeff() <= same_flow * flow.cwiseAbs().maxCoeff());
+}
+
+/// Whether the flow beside a relation at rest depends on its truth in first order, along a column: the
+/// kink of an Abs of a state that rests at zero.
+bool Tangents::bends(const GuardGroup& group, Index entry, Index k) {
+  const double length = columns_.x.col(k).cwiseAbs().maxCoeff();
+  const double shift =
+      bend_shift * (1.0 + machine_->x.cwiseAbs().maxCoeff()) / std::max(length, 1.0);
+  const auto flow = [&](bool other, double at) {
+    return flow_with_truth(group, entry, other, k, at);
+  };
+  const Eigen::VectorXd here = flow(false, 0.0), as_held = flow(false, shift),
+                        other = flow(true, shift);
+  for (Index i = 0; i < here.size(); ++i) {
+    const double moved = std::abs(as_held[i] - here[i]) + std::abs(other[i] - here[i]);
+    const double apart = std::abs(other[i] - as_held[i]);
+    if (apart > same_slope * moved && apart > same_flow * std::abs(here[i])) return true;
+  }
+  return false;
+}
+
+/// The flow at a state that is moved along a column, where the truth of a relation is as it is held, or
+/// the other one.
+Eigen::VectorXd Tangents::flow_with_truth(const GuardGroup& group, Index entry, bool other, Index k,
+                                          double shift) {
+  Machine& probe = probe_.at(machine_->x.data(), columns_.column(k), shift);
   double& truth = probe.truth_at(group.index, entry);
-  const double before = std::exchange(truth, truth == 0.0 ? 1.0 : 0.0);
-  probe.evaluate_instant(t_);
-  Eigen::VectorXd other(flow.size());
-  probe.derivative(t_, machine_->x.data(), other.data());
+  const double before = truth;
+  if (other) truth = truth == 0.0 ? 1.0 : 0.0;
+  probe.evaluate_instant(t_ + shift * columns_.t[k]);
+  Eigen::VectorXd flow(machine_->plan().nx);
+  probe.derivative(t_ + shift * columns_.t[k], probe.x.data(), flow.data());
   truth = before;
   probe.evaluate_instant(t_);
-  return !((other - flow).cwiseAbs().maxCoeff() <= same_flow * flow.cwiseAbs().maxCoeff());
+  for (Index i = 0; i < flow.size(); ++i)
+    if (machine_->resting().rests(i)) flow[i] = 0.0;
+  return flow;
 }
 
 }  // namespace saltus

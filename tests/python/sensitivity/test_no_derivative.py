@@ -292,3 +292,24 @@ def test_a_kink_at_its_root_keeps_its_derivative():
     results = saltus.simulate(block, (0.0, 1.0), sensitivity=["x[0]"])
     assert results.sensitivity_gaps == ()
     assert results.sensitivities.continuous_state[1] == pytest.approx([1.0], abs=1e-7)
+
+
+@pytest.mark.parametrize("block", ["Abs", "Sign", "Saturate", "DeadZone", "LookupTable1d", "Relay"])
+def test_a_relation_that_rests_at_its_root_has_a_gap(block):
+    """y' = f(s) of a state s that stays at the kink or jump of f: dy/ds has two values, or none."""
+    library = saltus.library
+    made, at = {
+        "Abs": (library.Abs, 0.0),
+        "Sign": (library.Sign, 0.0),
+        "Saturate": (lambda: library.Saturate(-1.0, 0.5), 0.5),
+        "DeadZone": (lambda: library.DeadZone(0.5), 0.5),
+        "LookupTable1d": (lambda: library.LookupTable1d([-1.0, 0.0, 1.0], [1.0, 0.0, 3.0]), 0.0),
+        "Relay": (lambda: library.Relay(0.5, 0.5, 1.0, 0.0), 0.5),
+    }[block]
+    builder = saltus.DiagramBuilder()
+    rate, state = builder.add(library.Constant(0.0)), builder.add(library.Integrator(at, name="s"))
+    of, y = builder.add(made()), builder.add(library.Integrator(name="y"))
+    for source, target in ((rate, state), (state, of), (of, y)):
+        builder.connect(source.output(), target.input(0))
+    results = saltus.simulate(builder.build(), (0.0, 1.0), sensitivity=["s.x[0]"])
+    lost(results, "the relation rests at its root")

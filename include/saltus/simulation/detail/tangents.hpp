@@ -90,6 +90,9 @@ class Tangents {
   void look_at_waiting();
   void look_at_waiting(std::size_t guard, const Eigen::VectorXd& flow);
   bool decides(const GuardGroup& group, Index entry, const Eigen::VectorXd& flow);
+  bool bends(const GuardGroup& group, Index entry, Index k);
+  Eigen::VectorXd flow_with_truth(const GuardGroup& group, Index entry, bool other, Index k,
+                                  double shift);
   /// Dense output begins here.
   void open_trajectory();
   void lose(Index k, const std::string& event, const std::string& reason) {
