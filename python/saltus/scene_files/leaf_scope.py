@@ -67,7 +67,7 @@ class LeafScope:
                 raise Wrong((*path, i), f"expected the name of a mode, found {found(name)}")
             if name in ON_ZENO:
                 raise Wrong((*path, i), f"'{name}' is a word of on_zeno; expected another name")
-            self.add((*path, i), name, "mode", Word(str(i)))
+            self.add((*path, i), name, "mode", Word(str(i), choice_of="mode"))
             self.modes.append(name)
         if names:
             self.words["mode"] = Word("state.mode")

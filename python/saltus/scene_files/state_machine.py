@@ -39,7 +39,7 @@ class _Reader:
         self.add_parameters(values | self.parameters)
         self.states = self.names("states")
         for position, state in enumerate(self.states):
-            self.add(("states", position), state, "state", Word(str(position)))
+            self.add(("states", position), state, "state", Word(str(position), choice_of="state"))
         self.inputs = self.names("inputs")
         for position, each in enumerate(self.inputs):
             self.add_value(("inputs", position), each, "input")
