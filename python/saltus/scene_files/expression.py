@@ -21,7 +21,7 @@ from saltus.scene_files.folding import folded
 from saltus.scene_files.vocabulary import CONSTANTS, FUNCTIONS
 from saltus.scene_files.wrong import Path, Wrong, found
 
-__all__ = ["ANY", "EITHER", "Expression", "Word", "expression", "template"]
+__all__ = ["ANY", "EITHER", "Expression", "Word", "expression", "template", "wrong_at"]
 
 MOST_CHARACTERS = 10_000
 MOST_LEVELS = 150
@@ -64,6 +64,9 @@ class Expression:
     names: frozenset[str]
     """the names of its scope that the expression reads"""
     boolean: bool
+    text: str = ""
+    node: ast.expr | None = None
+    """the tree of the text, in which names are those of the scope; None for a number"""
 
 
 Scope = Mapping[str, Word]
@@ -79,7 +82,13 @@ def expression(path: Path, text: Any, scope: Scope) -> Expression:
         raise Wrong(path, f'expected an expression such as "-k * x / m", found {found(text)}')
     builder = _Builder(path, text, scope)
     node = builder.parsed()
-    return Expression(builder.built(node, 0), frozenset(builder.names), builder.is_truth(node))
+    tree, truth = builder.built(node, 0), builder.is_truth(node)
+    return Expression(tree, frozenset(builder.names), truth, text, node)
+
+
+def wrong_at(path: Path, made: Expression, node: ast.expr, message: str) -> Wrong:
+    """A mistake in a part of an expression, with its column."""
+    return _Builder(path, made.text, {}).wrong(message, node)
 
 
 @functools.lru_cache(maxsize=4096)
