@@ -124,7 +124,13 @@ def _of_file(file: FileScene, settings: dict[str, Any]) -> Chosen:
     known = set(file.parameters)
     own, rest = _split(settings, known)
     scene = file.with_parameters(**own) if own else file
-    context = _with_values(scene.context, rest, known)
+    values = {}
+    for name, value in rest.items():
+        entry = scene.entry_named(name)
+        if entry in values:
+            raise ModelError(f"'{entry}' and '{name}' are the same value; leave one of them out")
+        values[entry] = value
+    context = _with_values(scene.context, values, known)
     return Chosen(
         scene.name,
         scene.title,

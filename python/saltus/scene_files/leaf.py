@@ -44,6 +44,10 @@ class SceneLeaf(LeafSystem):
     """what moves each output between events"""
     doubts: tuple[Doubt, ...] = ()
     """the equalities in its guards that depend on what its inputs are"""
+    structural: dict[str, str]
+    """the parameters in its equations that are in numbers of the block too, and where"""
+    held: dict[str, int]
+    """the discrete states, by name, and their positions"""
 
 
 def leaf_of(path: Path, table: dict[str, Any], name: str, parameters: dict[str, Any]) -> SceneLeaf:
@@ -64,6 +68,8 @@ class _Maker:
         self.leaf.shown = tuple(table.get("outputs", {}))
         self.motions = {name: ALWAYS for name in scope.states if name in scope.motions}
         self.leaf.motions = self.motions
+        self.leaf.held = {name: i for i, name in enumerate(scope.discrete)}
+        self.structural: dict[str, str] = {}
 
     def declare(self) -> None:
         for name, size in self.scope.inputs.items():
@@ -86,6 +92,8 @@ class _Maker:
             if name in self.scope.read:
                 with placed((*self.path, "parameters", name)):
                     self.leaf.declare_dynamic_parameter(name, value)
+        read = self.scope.read
+        self.leaf.structural = {name: key for name, key in self.structural.items() if name in read}
 
     def states(self) -> None:
         starts, rates = [], []
@@ -129,7 +137,7 @@ class _Maker:
         return self.scope.modes.index(chosen(path, value, self.scope.modes, "mode"))
 
     def number(self, path: Path, value: Any) -> float:
-        return number_of(path, value, self.scope.parameters)
+        return number_of(path, value, self.scope.parameters, self.structural)
 
     def output(self, path: Path, name: str, value: Any) -> None:
         if name in self.leaf.output_names:

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from saltus.library import StateMachine, Transition
+from saltus.library.by_name import FIRST
 from saltus.scene_files.evaluation import evaluated
 from saltus.scene_files.expression import Word, expression
 from saltus.scene_files.functions import function_of, number_of
@@ -39,6 +40,10 @@ class SceneMachine(StateMachine):
     """what moves each output between events"""
     doubts: tuple[Doubt, ...] = ()
     """the equalities in its conditions that depend on what its inputs are"""
+    structural: dict[str, str]
+    """the parameters in its expressions that are in numbers of the block too, and where"""
+    held: dict[str, int]
+    """the variables, by name, and their positions in the discrete state"""
 
 
 def state_machine(path: Path, table: dict[str, Any], name: str, values: dict[str, Any]) -> System:
@@ -49,6 +54,7 @@ def state_machine(path: Path, table: dict[str, Any], name: str, values: dict[str
 class _Reader:
     def __init__(self, path: Path, table: dict[str, Any], values: dict[str, Any]):
         self.path, self.table = path, table
+        self.structural: dict[str, str] = {}
         self.taken = dict(OWN)
         self.words = {"t": Word("time"), "since": Word("since"), "state": Word("state")}
         self.arguments = {"t": "time", "since": "since", "state": "state"}
@@ -93,6 +99,8 @@ class _Reader:
                 **actions,
             )
         made.motions, made.doubts = self.outputs, tuple(self.doubts)
+        made.structural = {name: key for name, key in self.structural.items() if name in numbers}
+        made.held = {name: i for i, name in enumerate(self.variables, FIRST)}
         return made
 
     def names(self, key: str) -> list[str]:
@@ -104,7 +112,7 @@ class _Reader:
     def numbers(self, key: str, values: dict[str, Any]) -> dict[str, float]:
         path = (*self.path, key)
         return {
-            name: number_of((*path, name), value, values)
+            name: number_of((*path, name), value, values, self.structural)
             for name, value in self.tables(key, "{ visits = 0 }").items()
         }
 
@@ -188,7 +196,7 @@ class _Reader:
             return self.value(path, value)
         return {
             chosen((*path, state), state, self.states, "state"): number_of(
-                (*path, state), each, self.values
+                (*path, state), each, self.values, self.structural
             )
             for state, each in value.items()
         }
@@ -211,4 +219,4 @@ class _Reader:
         return chosen(path, value, self.states, "state")
 
     def number(self, path: Path, value: Any) -> float:
-        return number_of(path, value, self.values)
+        return number_of(path, value, self.values, self.structural)
