@@ -49,6 +49,11 @@ class Chosen:
     file: FileScene | None = None
     """the scene file that was read"""
 
+    @property
+    def writes_atol(self) -> bool:
+        """Whether the scene file says the absolute tolerance, which `--rtol` leaves as it is."""
+        return self.file is not None and self.file.writes_atol
+
     def with_span(self, begin: float | None, end: float | None) -> Chosen:
         """The scene with the span from the command line in place of the usual one."""
         if begin is None and end is None:

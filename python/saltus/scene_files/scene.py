@@ -13,6 +13,7 @@ from saltus import _core
 from saltus._porting import missing
 from saltus.ensemble.sweep import sweep
 from saltus.errors import ModelError
+from saltus.options import atol_beside
 from saltus.results import Results
 from saltus.scene_files.run import Run, Sweep, run_of, sweep_of
 from saltus.scene_files.source import Source, error_of
@@ -134,14 +135,27 @@ class FileScene:
         Parameters
         ----------
         options
-            Options by name, such as `rtol=1e-9`; they replace those of the file.
+            Options by name, such as `rtol=1e-9`; they replace those of the file. If neither says
+            `atol`, it is rtol/100.
 
         Raises
         ------
         ModelError, SimulationError
             As from `saltus.simulate`; ModelError also if the file gives no end of the run.
         """
+        options = self._with_atol(options)
         return simulate(self.system, self.context, self._span(), self.options, **options)
+
+    @property
+    def writes_atol(self) -> bool:
+        """Whether the file says `atol`. Otherwise it is rtol/100, also of another rtol."""
+        return "atol" in self.tree.get("run", {})
+
+    def _with_atol(self, options: dict[str, Any]) -> dict[str, Any]:
+        rtol = options.get("rtol")
+        if "atol" in options or self.writes_atol or not isinstance(rtol, (float, list, tuple)):
+            return options
+        return options | {"atol": atol_beside(rtol)}
 
     def _span(self) -> tuple[float, float]:
         if self.t_span is None:
@@ -180,7 +194,7 @@ class FileScene:
         signals = {name: _path_in(self, name) for name in self.options.recorded_signals or {}}
         options = replace(self.options, recorded_signals=None)
         system = self.maker() if made_again else self.system
-        how.setdefault("recorded_signals", signals)
+        how = {"recorded_signals": signals} | self._with_atol(how)
         return sweep(system, values, self._span(), options=options, **how)
 
     def entry_named(self, name: str) -> str:

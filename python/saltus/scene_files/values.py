@@ -1,8 +1,8 @@
-"""The values of the blocks of a scene by the names of its file: `ctl.I` is an entry of a context."""
+"""The values of blocks by the names of a scene file: `ctl.I` is an entry of a context."""
 
 from __future__ import annotations
 
-import ast
+import re
 from typing import Any
 
 from saltus._signals import blocks_in
@@ -54,11 +54,11 @@ def _remedy(tree: dict[str, Any], path: list[str], own: str) -> str:
     block = tree.get("blocks", {}).get(path[0], {}) if len(path) == 1 else {}
     said = block.get(own, block.get("parameters", {}).get(own))
     if isinstance(said, str):
-        names = sorted({n.id for n in ast.walk(ast.parse(said)) if isinstance(n, ast.Name)})
+        names = sorted(set(re.findall(r"[A-Za-z_]\w*", said)))
         known = [f"'{n}'" for n in names if n in tree.get("parameters", {})]
         if known:
             return f"set {' or '.join(known)}, the parameter of the scene from which it is computed"
     return (
-        f"lead a parameter of the scene to it, as {own} = 'NAME' in the table of the block, and set "
-        "that one"
+        f"lead a parameter of the scene to it, as {own} = 'NAME' in the table of the block, and "
+        "set that one"
     )
