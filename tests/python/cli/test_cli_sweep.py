@@ -1,5 +1,6 @@
 """`saltus sweep`: workers, stores, rows that fail, Ctrl-C."""
 
+import contextlib
 import json
 import os
 import signal
@@ -132,6 +133,34 @@ def test_ctrl_c_shows_the_finished_rows(tmp_path):
     done = [row for row in rows if row["status"] == "reached_end"]
     assert 20 <= len(done) < 100_000
     assert {row["status"] for row in rows[len(done) :]} == {"not_run"}
+
+
+@pytest.mark.parametrize("store", [False, True])
+@pytest.mark.parametrize("times", [1, 2])
+def test_ctrl_c_ends_the_workers_too(tmp_path, times, store):
+    """From a terminal it goes to the whole group. The runs are endless; no worker is left."""
+    command = [sys.executable, "-u", "-m", "saltus", "sweep", f"{MINE}:Endless", "--workers", "2"]
+    command += ["--vary", "z[0]=0:1:4", "--t-end", "1e12"]
+    command += ["--store", str(tmp_path)] if store else []
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True
+    ) as running:
+        assert running.stdout.readline().startswith(b"begun")
+        for _ in range(times):
+            os.killpg(running.pid, signal.SIGINT)
+            time.sleep(0.2)
+        try:
+            _, err = running.communicate(timeout=20)
+            assert running.returncode == 130
+            assert b"interrupted" in err and b"Traceback" not in err
+            end = time.monotonic() + 10.0
+            with pytest.raises(ProcessLookupError):
+                while time.monotonic() < end:
+                    os.killpg(running.pid, 0)
+                    time.sleep(0.02)
+        finally:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(running.pid, signal.SIGKILL)
 
 
 DECAY = """version = 1
