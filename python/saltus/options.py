@@ -15,7 +15,14 @@ from saltus._porting import OPTIONS, refuse
 from saltus.progress import Progress
 from saltus.system import OutputPort
 
-__all__ = ["SimulatorOptions"]
+__all__ = ["SimulatorOptions", "atol_beside"]
+
+
+def atol_beside(rtol: Any) -> Any:
+    """The absolute tolerance of a scene file, and of the command line, that say the relative one
+    alone: a hundredth of it, as 1e-8 is of 1e-6.
+    """
+    return [each / 100.0 for each in rtol] if isinstance(rtol, (list, tuple)) else rtol / 100.0
 
 
 def _refuse_unknown(cls: Any) -> Any:

@@ -6,7 +6,7 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from saltus import __version__
 from saltus.cli import (
@@ -18,6 +18,7 @@ from saltus.cli import (
     sweep_scene,
     view_scene,
 )
+from saltus.cli.once import OnceAction, OnceTrueAction
 from saltus.errors import Error
 
 __all__ = ["UsageError", "main"]
@@ -39,7 +40,14 @@ class UsageError(Exception):
 
 
 class _Parser(argparse.ArgumentParser):
-    """Answers wrong use in one line, as the subcommands do."""
+    """Answers wrong use in one line, as the subcommands do. An option with one value is given
+    once.
+    """
+
+    def __init__(self, *arguments: Any, **options: Any):
+        super().__init__(*arguments, **options)
+        self.register("action", None, OnceAction)
+        self.register("action", "store_true", OnceTrueAction)
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {message}; `{self.prog} --help` says more\n")

@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def act(chosen: argparse.Namespace) -> int:
     scene = chosen_scene(chosen.scene, settings_of(chosen.set))
     scene = scene.with_span(chosen.t_begin, chosen.t_end)
-    overrides = options_of(chosen)
+    overrides = options_of(chosen, scene.writes_atol)
     refuse("--option", overrides, SimulatorOptions.__dataclass_fields__, OPTIONS)
     options = replace(scene.options, **overrides)
     plan = Simulator(scene.system, options).describe()  # refuses wrong options before a line is out

@@ -22,7 +22,7 @@ from saltus._signals import port_of
 from saltus._status import WELL
 from saltus.cli.files import require_picture, require_suffix
 from saltus.cli.scene_of import Chosen, chosen_scene
-from saltus.cli.settings import add_options, add_scene, options_of, settings_of
+from saltus.cli.settings import add_options, add_scene, options_of, recorded_of, settings_of
 from saltus.cli.table import print_table
 from saltus.errors import ModelError
 from saltus.results import Results
@@ -59,7 +59,7 @@ def act(chosen: argparse.Namespace) -> int:
     scene = chosen_scene(chosen.scene, settings_of(chosen.set))
     scene = scene.with_span(chosen.t_begin, chosen.t_end)
     span = scene.required_span()
-    overrides = _recording(chosen, scene, span) | options_of(chosen)
+    overrides = _recording(chosen, scene, span) | options_of(chosen, scene.writes_atol)
     if "throw" in overrides:
         raise ModelError("--option throw: leave it out; the exit code says how the run ended")
     results = simulate(scene.system, scene.context, span, scene.options, throw=False, **overrides)
@@ -80,8 +80,8 @@ def _recording(
     chosen: argparse.Namespace, scene: Chosen, span: tuple[float, float]
 ) -> dict[str, Any]:
     found: dict[str, Any] = {}
-    if chosen.record:
-        found["recorded_signals"] = {name: port_of(scene.system, name) for name in chosen.record}
+    if names := recorded_of(chosen.record):
+        found["recorded_signals"] = {name: port_of(scene.system, name) for name in names}
     if chosen.save_at:
         found["save_at"] = _times(chosen.save_at, span)
         found["save_steps"] = False

@@ -49,6 +49,11 @@ class Chosen:
     file: FileScene | None = None
     """the scene file that was read"""
 
+    @property
+    def writes_atol(self) -> bool:
+        """Whether the scene file says the absolute tolerance, which `--rtol` leaves as it is."""
+        return self.file is not None and self.file.writes_atol
+
     def with_span(self, begin: float | None, end: float | None) -> Chosen:
         """The scene with the span from the command line in place of the usual one."""
         if begin is None and end is None:
@@ -124,7 +129,13 @@ def _of_file(file: FileScene, settings: dict[str, Any]) -> Chosen:
     known = set(file.parameters)
     own, rest = _split(settings, known)
     scene = file.with_parameters(**own) if own else file
-    context = _with_values(scene.context, rest, known)
+    values = {}
+    for name, value in rest.items():
+        entry = scene.entry_named(name)
+        if entry in values:
+            raise ModelError(f"'{entry}' and '{name}' are the same value; leave one of them out")
+        values[entry] = value
+    context = _with_values(scene.context, values, known)
     return Chosen(
         scene.name,
         scene.title,

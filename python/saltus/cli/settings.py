@@ -7,8 +7,9 @@ import ast
 from typing import Any
 
 from saltus.errors import ModelError
+from saltus.options import atol_beside
 
-__all__ = ["add_options", "add_scene", "add_span", "options_of", "settings_of"]
+__all__ = ["add_options", "add_scene", "add_span", "options_of", "recorded_of", "settings_of"]
 
 
 def add_scene(parser: argparse.ArgumentParser) -> None:
@@ -50,7 +51,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--atol",
         type=_tolerance,
         metavar="TOL",
-        help="absolute tolerance, likewise; rtol/100 if only rtol is said",
+        help="absolute tolerance, likewise; by default that of the scene file, or rtol/100",
     )
     parser.add_argument("--zeno-tolerance", type=float, metavar="T", help="[s] 0: no Zeno holds")
     parser.add_argument(
@@ -73,27 +74,43 @@ FLAGS = {
 """options that have a flag of their own"""
 
 
-def options_of(chosen: argparse.Namespace) -> dict[str, Any]:
-    """The options that the command line gives, by the names of SimulatorOptions."""
+def options_of(chosen: argparse.Namespace, writes_atol: bool = False) -> dict[str, Any]:
+    """The options that the command line gives, by the names of SimulatorOptions. Without `--atol`
+    it is rtol/100, unless the scene file `writes_atol`.
+    """
     options: dict[str, Any] = {
         "ode_solver_method": chosen.method,
         "rtol": chosen.rtol,
         "atol": chosen.atol,
         "zeno_tolerance": chosen.zeno_tolerance,
     }
-    if chosen.rtol is not None and chosen.atol is None:
-        by_state = isinstance(chosen.rtol, list)
-        options["atol"] = [r / 100.0 for r in chosen.rtol] if by_state else chosen.rtol / 100.0
     said = {name: value for name, value in options.items() if value is not None}
     more = settings_of(chosen.option, "--option")
     for name, flag in FLAGS.items():
         if name in more and getattr(chosen, flag[2:].replace("-", "_"), None) is not None:
             raise ModelError(f"--option: '{name}' is set by {flag} too; leave out one of them")
-    return said | more
+    said |= more
+    if isinstance(said.get("rtol"), (int, float, list)) and "atol" not in said and not writes_atol:
+        said["atol"] = atol_beside(said["rtol"])
+    return said
+
+
+def recorded_of(names: list[str] | None) -> tuple[str, ...]:
+    """The names of `--record`, each once."""
+    names = names or []
+    for name in names:
+        if names.count(name) > 1:
+            raise ModelError(f"--record: '{name}' is given twice; keep one of them")
+    return tuple(names)
 
 
 def _tolerance(text: str) -> float | list[float]:
-    numbers = [float(part) for part in text.split(",")]
+    try:
+        numbers = [float(part) for part in text.split(",")]
+    except ValueError:
+        raise argparse.ArgumentTypeError(
+            f"expected a number, or one for each state, 1e-6,1e-9, found '{text}'"
+        ) from None
     return numbers if len(numbers) > 1 else numbers[0]
 
 

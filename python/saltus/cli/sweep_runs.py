@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saltus import __version__
-from saltus._entries import entries
+from saltus._entries import entries, entry_names
 from saltus._signals import port_of
 from saltus._span import rows_within
 from saltus._status import WELL
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.ensemble.columns import STATUS, Columns, empty, failed
+from saltus.ensemble.dataset import refuse_reserved
 from saltus.ensemble.runs import Outcome, Watch, each, said
 from saltus.ensemble.table import Column, Table
 from saltus.results import Results
@@ -55,9 +56,16 @@ class SceneRuns:
         return chosen_scene(self.scene, self.settings | dict(row), self.file).with_span(*self.span)
 
     def check(self, row: Mapping[str, Any]) -> None:
-        """Raises ModelError for unknown names, signals and options, before anything is run."""
+        """Raises ModelError for unknown names, signals and options, and for a column that would be
+        written over another one, before anything is run.
+        """
         scene = self.chosen(row)
         overrides = self._overrides(scene)
+        recorded = overrides.get("recorded_signals", scene.options.recorded_signals) or {}
+        entered = {name.partition("[")[0] for name in row if "[" in name} & recorded.keys()
+        shapes = {name: np.shape(recorded[name].eval(scene.context)) for name in entered}
+        titles = [title for name, shape in shapes.items() for title in entry_names(name, shape)]
+        refuse_reserved(row, [*recorded, *titles])
         Simulator(scene.system, scene.options, **overrides)
         save_at = overrides.get("save_at", scene.options.save_at)
         rows_within("sweep", save_at, scene.required_span())

@@ -17,7 +17,7 @@ from typing import Any
 from saltus._status import WELL
 from saltus.cli.files import require_suffix
 from saltus.cli.scene_of import chosen_scene
-from saltus.cli.settings import add_options, add_scene, options_of, settings_of
+from saltus.cli.settings import add_options, add_scene, options_of, recorded_of, settings_of
 from saltus.cli.sweep_runs import SceneRuns
 from saltus.cli.sweep_values import table_of_runs, varied_of
 from saltus.cli.table import print_table
@@ -79,8 +79,9 @@ def act(chosen: argparse.Namespace) -> int:
             "leave it out, or say with --vary what to vary"
         )
     table = table_of_runs(varied or first.varied, chosen.paired or (not varied and first.paired))
-    span, record = (chosen.t_begin, chosen.t_end), tuple(chosen.record or ())
-    runs = SceneRuns(chosen.scene, first.file, settings, span, record, options_of(chosen))
+    span, record = (chosen.t_begin, chosen.t_end), recorded_of(chosen.record)
+    options = options_of(chosen, first.writes_atol)
+    runs = SceneRuns(chosen.scene, first.file, settings, span, record, options)
     runs.check({name: entry(column, 0) for name, column in table.columns.items()})
     columns, raised = _made(runs, table, chosen)
     _show(_rows(columns, table), chosen)

@@ -44,7 +44,7 @@ def act(chosen: argparse.Namespace) -> int:
     require_suffix("--output", chosen.output, ".html", ".htm")
     scene = chosen_scene(chosen.scene, settings_of(chosen.set))
     scene = scene.with_span(chosen.t_begin, chosen.t_end)
-    span, overrides = scene.required_span(), options_of(chosen)
+    span, overrides = scene.required_span(), options_of(chosen, scene.writes_atol)
     for name in ("throw", "dense_output"):
         if name in overrides:
             raise ModelError(f"--option {name}: leave it out; a page has its own")

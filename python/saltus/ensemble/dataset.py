@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -37,16 +37,20 @@ def xarray() -> Any:
     return extra("xarray", "sweep", ", or ask for a dict of numpy arrays with as_dict=True")
 
 
-def refuse_reserved(varied: Mapping[str, object], signals: Mapping[str, object]) -> None:
+def refuse_reserved(varied: Iterable[str], signals: Iterable[str]) -> None:
     """Raises ModelError for a name that the results need themselves."""
     for name in signals:
         if name in RESERVED or name in varied:
-            raise ModelError(f"sweep: recorded signal '{name}': this name is taken; give another")
+            raise ModelError(
+                f"sweep: recorded signal '{name}': this name is taken; give another, as "
+                f"recorded_signals={{'{name}_': ...}} does in Python, or record = "
+                f"{{ {name}_ = ... }} in a scene file"
+            )
     for name in varied:
         if name in RESERVED:
             raise ModelError(
                 f"sweep: '{name}' is a name of the results; say it with the name of its block, "
-                f"such as 'ball.{name}'"
+                f"such as 'ball.{name}', or choose another name of the parameter"
             )
 
 

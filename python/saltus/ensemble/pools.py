@@ -6,6 +6,7 @@ import functools
 import math
 import multiprocessing
 import pickle
+import threading
 from collections.abc import Iterator
 from concurrent.futures import CancelledError, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
@@ -17,7 +18,7 @@ from saltus.ensemble.runs import NoSystem, Runs, Watch
 from saltus.ensemble.table import Column, Table
 from saltus.errors import ModelError
 
-__all__ = ["REMEDY", "pickled", "process_pool", "run_pooled", "submitted"]
+__all__ = ["REMEDY", "Workers", "interrupted", "pickled", "process_pool", "run_pooled", "submitted"]
 
 REMEDY = (
     "give a function that makes the system instead, at the top level of a module that the other "
@@ -70,15 +71,64 @@ def submitted(executor: Any, job: Runs | bytes, values: dict[str, Column], attem
 
 
 @contextmanager
-def process_pool(workers: int) -> Iterator[ProcessPoolExecutor]:
+def undisturbed() -> Iterator[None]:
+    """Ctrl-C within the block comes after it."""
+    import signal
+
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    came: list[int] = []
+    usual = signal.signal(signal.SIGINT, lambda number, _: came.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, usual)
+        if came:
+            signal.raise_signal(signal.SIGINT)
+
+
+class Workers(ProcessPoolExecutor):
     """New processes. Nothing of this process is copied into them, so locks of its threads cannot
     stop them.
     """
-    pool = ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), _deaf)
+
+    def __init__(self, count: int):
+        super().__init__(count, multiprocessing.get_context("spawn"), _deaf)
+
+    def submit(self, *arguments: Any, **named: Any) -> Any:
+        """As that of the base, which starts a process and then notes it: Ctrl-C between the two
+        would leave one of which nobody knows.
+        """
+        with undisturbed():
+            return super().submit(*arguments, **named)
+
+    def kill(self) -> None:
+        """Ends the processes within their runs, whose results nobody waits for. The futures are
+        broken then; one that is cancelled before would end the thread that breaks them.
+        """
+        with undisturbed():
+            for process in list((self._processes or {}).values()):
+                process.kill()
+        self.shutdown()
+
+
+@contextmanager
+def process_pool(workers: int) -> Iterator[Workers]:
+    """Processes that live as long as the block. Ctrl-C, and a second one, leaves none of them."""
+    pool = Workers(workers)
     try:
         yield pool
-    finally:
         pool.shutdown(cancel_futures=True)
+    except BaseException:
+        pool.kill()
+        raise
+
+
+def interrupted(executor: Any) -> None:
+    """After Ctrl-C: the workers of a pool of ours have nothing more to do."""
+    if isinstance(executor, Workers):
+        executor.kill()
 
 
 def _deaf() -> None:
@@ -112,6 +162,7 @@ def run_pooled(
                 break
     except KeyboardInterrupt as error:
         raised = error
+        interrupted(executor)
     submitted.close()
     parts += [empty(last - first) for first, last in cuts[len(parts) :]]
     return join(parts), raised

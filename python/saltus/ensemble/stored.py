@@ -135,6 +135,7 @@ def _run_round(state: _Stored, pool: Any, job: Runs | bytes, attempt: int) -> No
             _take(state, number, future)
     except KeyboardInterrupt as error:
         state.raised = error
+        pools.interrupted(pool)
     finally:
         for future in futures:
             future.cancel()

@@ -21,7 +21,7 @@ from saltus.scene_files.folding import folded
 from saltus.scene_files.vocabulary import CONSTANTS, FUNCTIONS
 from saltus.scene_files.wrong import Path, Wrong, found
 
-__all__ = ["ANY", "EITHER", "Expression", "Word", "expression", "template"]
+__all__ = ["ANY", "EITHER", "Expression", "Word", "expression", "template", "wrong_at"]
 
 MOST_CHARACTERS = 10_000
 MOST_LEVELS = 150
@@ -52,6 +52,8 @@ class Word:
     """
     truth: bool = False
     """whether it is true or false"""
+    choice_of: str | None = None
+    """the word whose value it names: 'mode' for the name of a mode, which is no number"""
 
 
 @dataclass(frozen=True)
@@ -62,6 +64,9 @@ class Expression:
     names: frozenset[str]
     """the names of its scope that the expression reads"""
     boolean: bool
+    text: str = ""
+    node: ast.expr | None = None
+    """the tree of the text, in which names are those of the scope; None for a number"""
 
 
 Scope = Mapping[str, Word]
@@ -77,7 +82,13 @@ def expression(path: Path, text: Any, scope: Scope) -> Expression:
         raise Wrong(path, f'expected an expression such as "-k * x / m", found {found(text)}')
     builder = _Builder(path, text, scope)
     node = builder.parsed()
-    return Expression(builder.built(node, 0), frozenset(builder.names), builder.is_truth(node))
+    tree, truth = builder.built(node, 0), builder.is_truth(node)
+    return Expression(tree, frozenset(builder.names), truth, text, node)
+
+
+def wrong_at(path: Path, made: Expression, node: ast.expr, message: str) -> Wrong:
+    """A mistake in a part of an expression, with its column."""
+    return _Builder(path, made.text, {}).wrong(message, node)
 
 
 @functools.lru_cache(maxsize=4096)
@@ -216,13 +227,26 @@ class _Builder:
     def comparison(self, node: ast.Compare, level: int) -> ast.expr:
         """a < b < c is a < b and b < c."""
         self.require_few(node, node.comparators)
-        sides = [self.built(side, level) for side in (node.left, *node.comparators)]
+        sides = [self.side(node, i, level) for i in range(len(node.comparators) + 1)]
         found: list[ast.expr] = []
         for op, left, right in zip(node.ops, sides[:-1], sides[1:], strict=True):
             if not isinstance(op, COMPARISONS):
                 raise self.refused(node, type(op))
             found.append(ast.Compare(left, [op], [right]))
         return functools.reduce(lambda a, b: _numpy("logical_and", a, b), found)
+
+    def side(self, node: ast.Compare, i: int, level: int) -> ast.expr:
+        """A side of a comparison; the only place where the name of a mode stands for its number."""
+        sides = [node.left, *node.comparators]
+        side = sides[i]
+        word = self.scope.get(side.id) if isinstance(side, ast.Name) else None
+        before = [(node.ops[i - 1], sides[i - 1])] if i > 0 else []
+        beside = [*before, *zip(node.ops[i : i + 1], sides[i + 1 :], strict=False)]
+        if word is None or not all(_names_choice(word, op, other) for op, other in beside):
+            return self.built(side, level)
+        assert isinstance(side, ast.Name)
+        self.names.add(side.id)
+        return template(word.code)
 
     def truth(self, node: ast.BoolOp, level: int) -> ast.expr:
         self.require_few(node, node.values)
@@ -292,6 +316,11 @@ class _Builder:
         word = self.word(node)
         if word.size is not None and word.size != EITHER:
             raise self.wrong(f"'{node.id}' is a vector; write {node.id}[0]", node)
+        if word.choice_of is not None:
+            what = word.choice_of
+            raise self.wrong(
+                f"'{node.id}' is the name of a {what} and no value; write {what} == {node.id}", node
+            )
         return template(word.code)
 
     def word(self, node: ast.Name) -> Word:
@@ -329,6 +358,12 @@ class _Builder:
     def is_truth(self, node: ast.expr) -> bool:
         negation = isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not)
         return negation or isinstance(node, (ast.Compare, ast.BoolOp))
+
+
+def _names_choice(word: Word, op: ast.cmpop, other: ast.expr) -> bool:
+    """Whether a comparison is `mode == heating`, of the name of a mode with the mode."""
+    equality = isinstance(op, (ast.Eq, ast.NotEq))
+    return equality and isinstance(other, ast.Name) and other.id == word.choice_of
 
 
 def _numpy(function: str, *arguments: ast.expr) -> ast.expr:

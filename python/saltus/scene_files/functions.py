@@ -68,9 +68,16 @@ def numbers_scope(values: Mapping[str, Any]) -> dict[str, Word]:
     }
 
 
-def number_of(path: Path, text: Any, values: Mapping[str, Any]) -> float:
-    """The number of an expression of other numbers. Wrong if it has none."""
+def number_of(
+    path: Path, text: Any, values: Mapping[str, Any], read: dict[str, str] | None = None
+) -> float:
+    """The number of an expression of other numbers, whose names go to `read`, each with the key
+    that reads it. Wrong if it has none.
+    """
     made = expression(path, text, numbers_scope(values))
+    if read is not None:
+        key = next(f"'{key}'" for key in reversed(path) if isinstance(key, str))
+        read |= {name: key for name in made.names if name not in read}
     return float(evaluated(path, text, made.tree, values))
 
 

@@ -9,6 +9,7 @@ from saltus.leaf_system import LeafSystem
 from saltus.scene_files.expression import Expression, template
 from saltus.scene_files.functions import list_of, number_of
 from saltus.scene_files.leaf_scope import LeafScope
+from saltus.scene_files.moving import ALWAYS, NEVER, Doubt, Motions
 from saltus.scene_files.names import chosen, require_part_name
 from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
 
@@ -39,6 +40,14 @@ class SceneLeaf(LeafSystem):
 
     shown: tuple[str, ...] = ()
     """the outputs that the file names, which are recorded by default"""
+    motions: Motions
+    """what moves each output between events"""
+    doubts: tuple[Doubt, ...] = ()
+    """the equalities in its guards that depend on what its inputs are"""
+    structural: dict[str, str]
+    """the parameters in its equations that are in numbers of the block too, and where"""
+    held: dict[str, int]
+    """the discrete states, by name, and their positions"""
 
 
 def leaf_of(path: Path, table: dict[str, Any], name: str, parameters: dict[str, Any]) -> SceneLeaf:
@@ -57,6 +66,10 @@ class _Maker:
         self.path, self.table, self.scope = path, table, scope
         self.leaf = SceneLeaf(name=name)
         self.leaf.shown = tuple(table.get("outputs", {}))
+        self.motions = {name: ALWAYS for name in scope.states if name in scope.motions}
+        self.leaf.motions = self.motions
+        self.leaf.held = {name: i for i, name in enumerate(scope.discrete)}
+        self.structural: dict[str, str] = {}
 
     def declare(self) -> None:
         for name, size in self.scope.inputs.items():
@@ -79,6 +92,8 @@ class _Maker:
             if name in self.scope.read:
                 with placed((*self.path, "parameters", name)):
                     self.leaf.declare_dynamic_parameter(name, value)
+        read = self.scope.read
+        self.leaf.structural = {name: key for name, key in self.structural.items() if name in read}
 
     def states(self) -> None:
         starts, rates = [], []
@@ -122,7 +137,7 @@ class _Maker:
         return self.scope.modes.index(chosen(path, value, self.scope.modes, "mode"))
 
     def number(self, path: Path, value: Any) -> float:
-        return number_of(path, value, self.scope.parameters)
+        return number_of(path, value, self.scope.parameters, self.structural)
 
     def output(self, path: Path, name: str, value: Any) -> None:
         if name in self.leaf.output_names:
@@ -131,6 +146,8 @@ class _Maker:
         texts = [((*path, i), text) for i, text in enumerate(value)] if many else [(path, value)]
         parts = [self.scope.expression(place, text) for place, text in texts]
         inputs = self.scope.inputs_of(parts)
+        moved = [self.scope.motion_of(part) for part in parts]
+        self.motions[name] = frozenset.intersection(*moved) if moved else NEVER
         self.leaf.declare_output_port(
             self.scope.function(list_of(parts) if many else parts[0].tree, inputs, parts),
             name=name,
@@ -143,7 +160,10 @@ class _Maker:
     def guard(self, path: Path, name: str, value: Any) -> None:
         value = table_at(path, value, "{ guard = 'y', direction = 'falling' }")
         require_keys(path, value, GUARD_KEYS, ("guard",))
-        guard = self.scope.expression((*path, "guard"), value["guard"])
+        waits = value.get("at_start", "auto") in ("auto", "ignore")
+        waits = waits and value.get("initial_value") is not False  # else it fires at the start
+        guard, doubts = self.scope.guard((*path, "guard"), value["guard"], waits)
+        self.leaf.doubts += tuple(doubts)
         effect, read = self.effect(path, value)
         queue = {
             key: self.scope.expression((*path, key), value[key])

@@ -9,6 +9,14 @@ from typing import Any
 from saltus.scene_files.evaluation import evaluated
 from saltus.scene_files.expression import Expression, Word, expression
 from saltus.scene_files.functions import function_of
+from saltus.scene_files.moving import (
+    ALWAYS,
+    NEVER,
+    Doubt,
+    doubts_of,
+    motion_of,
+    require_a_change,
+)
 from saltus.scene_files.names import named_vector, require_word
 from saltus.scene_files.vocabulary import ON_ZENO
 from saltus.scene_files.wrong import Path, Wrong, found
@@ -31,6 +39,8 @@ class LeafScope:
     variables: dict[str, Expression] = field(default_factory=dict)
     read: set[str] = field(default_factory=set)
     """the parameters that some expression reads"""
+    motions: dict[str, frozenset[str]] = field(default_factory=dict)
+    """what moves each name between events"""
 
     def add(self, path: Path, name: str, what: str, word: Word) -> None:
         require_word(path, name, self.taken, what)
@@ -39,7 +49,7 @@ class LeafScope:
 
     def add_table(self, path: Path, table: dict[str, Any]) -> None:
         """The names that the table of a leaf declares."""
-        self.words["t"] = Word("time")
+        self.words["t"], self.motions["t"] = Word("time"), ALWAYS
         for name, value in self.parameters.items():
             nested = isinstance(value, list)
             self.taken[name] = "parameter"
@@ -51,6 +61,8 @@ class LeafScope:
             for i, name in enumerate(table.get(what, {})):
                 self.add((*path, what, name), name, "state", Word(f"state.{attribute}[{i}]"))
                 names.append(name)
+                if what == "states" and _has_rate(table[what][name]):
+                    self.motions[name] = ALWAYS
         self._add_modes((*path, "modes"), table.get("modes", []))
         self._add_inputs((*path, "inputs"), table.get("inputs", []))
         for name, text in table.get("variables", {}).items():
@@ -58,6 +70,7 @@ class LeafScope:
             made = self.expression(at, text)
             self.add(at, name, "variable", Word(f"v_{name}", truth=made.boolean))
             self.variables[name] = made
+            self.motions[name] = self.motion_of(made)
 
     def _add_modes(self, path: Path, names: Any) -> None:
         if not isinstance(names, list):
@@ -67,7 +80,7 @@ class LeafScope:
                 raise Wrong((*path, i), f"expected the name of a mode, found {found(name)}")
             if name in ON_ZENO:
                 raise Wrong((*path, i), f"'{name}' is a word of on_zeno; expected another name")
-            self.add((*path, i), name, "mode", Word(str(i)))
+            self.add((*path, i), name, "mode", Word(str(i), choice_of="mode"))
             self.modes.append(name)
         if names:
             self.words["mode"] = Word("state.mode")
@@ -79,6 +92,21 @@ class LeafScope:
             name, size = named_vector((*path, i), text)
             self.add((*path, i), name, "input", Word(f"u_{name}", size))
             self.inputs[name] = size
+            self.motions[name] = frozenset({name})
+
+    def motion_of(self, made: Expression) -> frozenset[str]:
+        """What moves the value of an expression between events."""
+        return NEVER if made.node is None else motion_of(made.node, self.motions)
+
+    def guard(self, path: Path, text: Any, waits: bool) -> tuple[Expression, list[Doubt]]:
+        """The expression of a guard, and what it compares by ==. Wrong if it never fires; one that
+        `waits` for no zero may be a constant.
+        """
+        made = self.expression(path, text)
+        if waits:
+            parts = {*self.states, *self.discrete, *self.inputs, "t", "mode"}
+            require_a_change(path, made, frozenset(parts - set(self.parameters)))
+        return made, doubts_of(path, made, self.motions, self.variables)
 
     def expression(self, path: Path, text: Any) -> Expression:
         made = expression(path, text, self.words)
@@ -115,3 +143,14 @@ class LeafScope:
             "inputs": set(self.inputs),
         }
         return [what for what, of in parts.items() if names & of]
+
+
+def _has_rate(state: Any) -> bool:
+    """Whether a state may change between events; one without a rate is held."""
+    rate = state.get("rate", 0.0) if isinstance(state, dict) else 0.0
+    if isinstance(rate, str):
+        try:
+            return float(rate) != 0.0
+        except ValueError:
+            return True
+    return bool(rate)

@@ -10,7 +10,7 @@ import numpy as np
 
 from saltus._signals import port_of
 from saltus._span import ROUNDING
-from saltus.options import SimulatorOptions
+from saltus.options import SimulatorOptions, atol_beside
 from saltus.ports import OutputPort
 from saltus.scene_files.functions import number_of, value_of
 from saltus.scene_files.leaf import SceneLeaf
@@ -70,7 +70,9 @@ def run_of(table: Any, system: System, values: dict[str, Any]) -> Run:
             options[NAMES.get(key, key)] = _option((*path, key), key, table[key], values)
     for key in ("rtol", "atol"):
         if key in table:
-            options[key] = value_of((*path, key), table[key], values)
+            options[key] = _tolerance((*path, key), table[key], values)
+    if "rtol" in options and "atol" not in options:
+        options["atol"] = atol_beside(options["rtol"])
     if "save_at" in table:
         options["save_at"] = _times((*path, "save_at"), table["save_at"], begin, until, values)
         options.setdefault("save_steps", False)
@@ -94,6 +96,16 @@ def _option(path: Path, key: str, value: Any, values: dict[str, Any]) -> Any:
     if not number.is_integer():
         raise Wrong(path, f"expected a whole number, found {number:g}")
     return int(number)
+
+
+def _tolerance(path: Path, value: Any, values: dict[str, Any]) -> Any:
+    """A number, or one for each state."""
+    for each in value if isinstance(value, list) else [value]:
+        if isinstance(each, (bool, list)):
+            raise Wrong(
+                path, f"expected a number, or a list with one for each state, found {found(value)}"
+            )
+    return value_of(path, value, values)
 
 
 def _times(path: Path, value: Any, begin: float, until: float | None, values: Any) -> list[float]:

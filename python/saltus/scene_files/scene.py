@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import inspect
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,10 +13,12 @@ from saltus import _core
 from saltus._porting import missing
 from saltus.ensemble.sweep import sweep
 from saltus.errors import ModelError
+from saltus.options import atol_beside
 from saltus.results import Results
 from saltus.scene_files.run import Run, Sweep, run_of, sweep_of
 from saltus.scene_files.source import Source, error_of
 from saltus.scene_files.systems import parameters_of, system_of_table
+from saltus.scene_files.values import entry_named
 from saltus.scene_files.writing import text_of
 from saltus.scene_files.wrong import Path as Keys
 from saltus.scene_files.wrong import Wrong, placed
@@ -133,14 +135,27 @@ class FileScene:
         Parameters
         ----------
         options
-            Options by name, such as `rtol=1e-9`; they replace those of the file.
+            Options by name, such as `rtol=1e-9`; they replace those of the file. If neither says
+            `atol`, it is rtol/100.
 
         Raises
         ------
         ModelError, SimulationError
             As from `saltus.simulate`; ModelError also if the file gives no end of the run.
         """
+        options = self._with_atol(options)
         return simulate(self.system, self.context, self._span(), self.options, **options)
+
+    @property
+    def writes_atol(self) -> bool:
+        """Whether the file says `atol`. Otherwise it is rtol/100, also of another rtol."""
+        return "atol" in self.tree.get("run", {})
+
+    def _with_atol(self, options: dict[str, Any]) -> dict[str, Any]:
+        rtol = options.get("rtol")
+        if "atol" in options or self.writes_atol or not isinstance(rtol, (float, list, tuple)):
+            return options
+        return options | {"atol": atol_beside(rtol)}
 
     def _span(self) -> tuple[float, float]:
         if self.t_span is None:
@@ -171,6 +186,7 @@ class FileScene:
             if not self.swept.values:
                 raise ModelError(f"scene '{self.name}' says nothing to vary; write a table 'sweep'")
             values, how = self.swept.values, {"paired": self.swept.paired} | how
+        values = _renamed(values, self.entry_named)
         # a system cannot be sent to another process, but the function that makes it can
         made_again = how.get("executor") == "processes" or any(
             name in self.parameters for name in _names(values)
@@ -178,8 +194,25 @@ class FileScene:
         signals = {name: _path_in(self, name) for name in self.options.recorded_signals or {}}
         options = replace(self.options, recorded_signals=None)
         system = self.maker() if made_again else self.system
-        how.setdefault("recorded_signals", signals)
+        how = {"recorded_signals": signals} | self._with_atol(how)
         return sweep(system, values, self._span(), options=options, **how)
+
+    def entry_named(self, name: str) -> str:
+        """The name in a context of a parameter or of a state of a block.
+
+        Raises
+        ------
+        ModelError
+            If a new value would reach the equations of the block and not its start or its period.
+
+        Examples
+        --------
+        >>> from saltus.scene_files import loads
+        >>> counter = loads("version = 1\\ndiscrete = { n = 0, m = 1 }")
+        >>> counter.entry_named("m")
+        'z[1]'
+        """
+        return name if name in self.parameters else entry_named(self.system, self.tree, name)
 
     def maker(self) -> Maker:
         """A function that makes the system anew with other parameters; it can be pickled."""
@@ -256,6 +289,17 @@ def _names(values: Any) -> list[str]:
     if isinstance(values, (list, tuple)):
         return list(dict.fromkeys(name for row in values for name in row))
     return list(values)
+
+
+def _renamed(values: Any, rename: Callable[[str], str]) -> Any:
+    """Values by the names of a context; also of a DataFrame."""
+    if isinstance(values, Mapping):
+        return {rename(name): column for name, column in values.items()}
+    if isinstance(values, (list, tuple)) and all(isinstance(row, Mapping) for row in values):
+        return [{rename(name): value for name, value in row.items()} for row in values]
+    if hasattr(values, "rename"):
+        return values.rename(columns=rename)
+    return values
 
 
 def _path_in(scene: FileScene, name: str) -> str:

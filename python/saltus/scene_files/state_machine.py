@@ -8,19 +8,42 @@ from collections.abc import Callable
 from typing import Any
 
 from saltus.library import StateMachine, Transition
+from saltus.library.by_name import FIRST
 from saltus.scene_files.evaluation import evaluated
 from saltus.scene_files.expression import Word, expression
 from saltus.scene_files.functions import function_of, number_of
+from saltus.scene_files.moving import (
+    ALWAYS,
+    NEVER,
+    Doubt,
+    Motions,
+    doubts_of,
+    motion_of,
+    require_a_change,
+)
 from saltus.scene_files.names import chosen, require_part_name, require_word, text_at
 from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
 from saltus.system import System
 
-__all__ = ["state_machine"]
+__all__ = ["SceneMachine", "state_machine"]
 
 TRANSITION_KEYS = tuple(each.name for each in dataclasses.fields(Transition))
 ACTION = "{ visits = 'visits + 1' }"
 OWN = {"since": "time since the active state was entered", "np": "word of expressions"}
 """names that the block itself gives a meaning to"""
+
+
+class SceneMachine(StateMachine):
+    """A state machine whose expressions are in a scene file."""
+
+    motions: Motions
+    """what moves each output between events"""
+    doubts: tuple[Doubt, ...] = ()
+    """the equalities in its conditions that depend on what its inputs are"""
+    structural: dict[str, str]
+    """the parameters in its expressions that are in numbers of the block too, and where"""
+    held: dict[str, int]
+    """the variables, by name, and their positions in the discrete state"""
 
 
 def state_machine(path: Path, table: dict[str, Any], name: str, values: dict[str, Any]) -> System:
@@ -31,6 +54,7 @@ def state_machine(path: Path, table: dict[str, Any], name: str, values: dict[str
 class _Reader:
     def __init__(self, path: Path, table: dict[str, Any], values: dict[str, Any]):
         self.path, self.table = path, table
+        self.structural: dict[str, str] = {}
         self.taken = dict(OWN)
         self.words = {"t": Word("time"), "since": Word("since"), "state": Word("state")}
         self.arguments = {"t": "time", "since": "since", "state": "state"}
@@ -39,7 +63,7 @@ class _Reader:
         self.add_parameters(values | self.parameters)
         self.states = self.names("states")
         for position, state in enumerate(self.states):
-            self.add(("states", position), state, "state", Word(str(position)))
+            self.add(("states", position), state, "state", Word(str(position), choice_of="state"))
         self.inputs = self.names("inputs")
         for position, each in enumerate(self.inputs):
             self.add_value(("inputs", position), each, "input")
@@ -47,7 +71,11 @@ class _Reader:
         for each in self.variables:
             self.add_value(("variables", each), each, "variable")
 
-    def machine(self, name: str) -> StateMachine:
+        self.motions = {"t": ALWAYS, "since": ALWAYS} | {u: frozenset({u}) for u in self.inputs}
+        self.doubts: list[Doubt] = []
+        self.outputs: dict[str, frozenset[str]] = {}
+
+    def machine(self, name: str) -> SceneMachine:
         transitions = [self.transition(*each) for each in self.entries("transitions")]
         actions = {what: self.actions(what) for what in ("entry", "exit")}
         outputs = {
@@ -59,7 +87,7 @@ class _Reader:
             chosen((*self.path, "initial"), initial, self.states, "state")
         numbers = self.parameters | {each: self.values[each] for each in self.read}
         with placed(self.path):
-            return StateMachine(
+            made = SceneMachine(
                 self.states,
                 transitions,
                 inputs=self.inputs,
@@ -70,6 +98,10 @@ class _Reader:
                 name=name,
                 **actions,
             )
+        made.motions, made.doubts = self.outputs, tuple(self.doubts)
+        made.structural = {name: key for name, key in self.structural.items() if name in numbers}
+        made.held = {name: i for i, name in enumerate(self.variables, FIRST)}
+        return made
 
     def names(self, key: str) -> list[str]:
         path, given = (*self.path, key), self.table.get(key, [])
@@ -80,7 +112,7 @@ class _Reader:
     def numbers(self, key: str, values: dict[str, Any]) -> dict[str, float]:
         path = (*self.path, key)
         return {
-            name: number_of((*path, name), value, values)
+            name: number_of((*path, name), value, values, self.structural)
             for name, value in self.tables(key, "{ visits = 0 }").items()
         }
 
@@ -126,9 +158,18 @@ class _Reader:
         return self.function({path: text}, lambda tree: tree)
 
     def truth(self, path: Path, text: Any) -> Any:
-        if not expression(path, text, self.words).boolean:
+        made = expression(path, text, self.words)
+        if not made.boolean:
             raise Wrong(path, f"expected a truth such as 'call > 0.5', found {found(text)}")
+        self.doubts += doubts_of(path, made, self.motions, {})
         return self.value(path, text)
+
+    def trigger(self, path: Path, text: Any) -> Any:
+        """A truth that fires where it becomes true."""
+        value = self.truth(path, text)
+        changing = frozenset({"t", "since", "state", *self.inputs, *self.variables})
+        require_a_change(path, expression(path, text, self.words), changing)
+        return value
 
     def action(self, path: Path, changes: Any) -> Any:
         """The new values of variables, by their names; all of them read those before the action."""
@@ -150,10 +191,12 @@ class _Reader:
     def output(self, path: Path, name: str, value: Any) -> Any:
         require_part_name(path, name, "output")
         if not isinstance(value, dict):
+            node = expression(path, value, self.words).node
+            self.outputs[name] = NEVER if node is None else motion_of(node, self.motions)
             return self.value(path, value)
         return {
             chosen((*path, state), state, self.states, "state"): number_of(
-                (*path, state), each, self.values
+                (*path, state), each, self.values, self.structural
             )
             for state, each in value.items()
         }
@@ -164,7 +207,7 @@ class _Reader:
             "source": self.state,
             "target": self.state,
             "guard": self.truth,
-            "trigger": self.truth,
+            "trigger": self.trigger,
             "after": self.number,
             "action": self.action,
             "priority": self.number,
@@ -176,4 +219,4 @@ class _Reader:
         return chosen(path, value, self.states, "state")
 
     def number(self, path: Path, value: Any) -> float:
-        return number_of(path, value, self.values)
+        return number_of(path, value, self.values, self.structural)

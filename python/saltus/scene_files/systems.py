@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from saltus._core import known_names
@@ -13,6 +13,7 @@ from saltus.scene_files.leaf import LEAF_KEYS, leaf_of
 from saltus.scene_files.library_block import SUBSYSTEMS, library_block
 from saltus.scene_files.names import named_path, require_part_name, require_word, text_at
 from saltus.scene_files.wires import wires_of
+from saltus.scene_files.wiring import DiagramPart, Part, part_of
 from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
 from saltus.system import System
 
@@ -28,9 +29,11 @@ BLOCK = "{ block = 'Gain', gain = 2.0 }"
 
 @dataclass
 class Count:
-    """The number of blocks that were made; nested systems multiply it."""
+    """The number of blocks that were made, which nested systems multiply, and their diagrams."""
 
     blocks: int = 0
+    parts: dict[int, Part] = field(default_factory=dict)
+    """the diagrams that were made, by the numbers of their systems"""
 
     def one_more(self, path: Path) -> None:
         self.blocks += 1
@@ -118,20 +121,30 @@ def _diagram(table: dict[str, Any], name: str, values: dict[str, Any], place: Pl
         made[key] = _block((*path, key), table_at((*path, key), block, BLOCK), key, values, place)
         with placed((*path, key)):
             builder.add(made[key])
+    sources: dict[str, str] = {}
     for at, source, destination in wires_of((*place.path, "wires"), table.get("wires", []), made):
         with placed(at):
             builder.connect(source, destination)
+        sources[destination] = source
+    ends: dict[str, dict[str, str]] = {"inputs": {}, "outputs": {}}
     for what, export in (("inputs", builder.export_input), ("outputs", builder.export_output)):
         at = (*place.path, what)
         for key, port in table_at(at, table.get(what, {}), "{ y = 'plant.y' }").items():
             require_part_name((*at, key), key, "port")
             text = text_at((*at, key), port, "plant.y")
             with placed((*at, key)):
-                export(named_path((*at, key), text, made, what), key)
+                port = named_path((*at, key), text, made, what)
+                export(port, key)
+            ends[what][key] = port
     try:
-        return builder.build(name)
+        built = builder.build(name)
     except ModelError as error:
         raise Wrong(_named_in(str(error), path, made), str(error)) from None
+    known = place.count.parts
+    parts = {key: known.get(b.system_id) or part_of(b, blocks[key]) for key, b in made.items()}
+    inputs = {port: key for key, port in ends["inputs"].items()}
+    known[built.system_id] = DiagramPart(parts, sources, inputs, ends["outputs"])
+    return built
 
 
 def _named_in(message: str, path: Path, blocks: dict[str, System]) -> Path:

@@ -1,5 +1,6 @@
 """`saltus sweep`: workers, stores, rows that fail, Ctrl-C."""
 
+import contextlib
 import json
 import os
 import signal
@@ -132,3 +133,83 @@ def test_ctrl_c_shows_the_finished_rows(tmp_path):
     done = [row for row in rows if row["status"] == "reached_end"]
     assert 20 <= len(done) < 100_000
     assert {row["status"] for row in rows[len(done) :]} == {"not_run"}
+
+
+@pytest.mark.parametrize("store", [False, True])
+@pytest.mark.parametrize("times", [1, 2])
+def test_ctrl_c_ends_the_workers_too(tmp_path, times, store):
+    """From a terminal it goes to the whole group. The runs are endless; no worker is left."""
+    command = [sys.executable, "-u", "-m", "saltus", "sweep", f"{MINE}:Endless", "--workers", "2"]
+    command += ["--vary", "z[0]=0:1:4", "--t-end", "1e12"]
+    command += ["--store", str(tmp_path)] if store else []
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True
+    ) as running:
+        assert running.stdout.readline().startswith(b"begun")
+        for _ in range(times):
+            os.killpg(running.pid, signal.SIGINT)
+            time.sleep(0.2)
+        try:
+            _, err = running.communicate(timeout=20)
+            assert running.returncode == 130
+            assert b"interrupted" in err and b"Traceback" not in err
+            end = time.monotonic() + 10.0
+            with pytest.raises(ProcessLookupError):
+                while time.monotonic() < end:
+                    os.killpg(running.pid, 0)
+                    time.sleep(0.02)
+        finally:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(running.pid, signal.SIGKILL)
+
+
+DECAY = """version = 1
+[parameters]
+k = 1.0
+{name} = 2.0
+[states]
+p = {{ start = 1.0, rate = "-k * p" }}
+[outputs]
+{output} = "2 * p"
+[run]
+until = 1.0
+"""
+SECOND = {
+    "the end of the run": ("time", "k=1,2"),
+    "its status": ("status", "k=1,2"),
+    "its events": ("events", "k=1,2"),
+    "its reason": ("message", "k=1,2"),
+    "a parameter that is varied": ("k", "k=1,2"),
+    "a state that is varied": ("p", "p=1,2"),
+}
+
+
+@pytest.mark.parametrize("column", SECOND)
+def test_a_column_is_not_written_over_by_an_output(capsys, tmp_path, column):
+    """Refused as Python's sweep refuses it."""
+    output, varied = SECOND[column]
+    file = tmp_path / "decay.toml"
+    text = DECAY.format(name="b", output=output)
+    file.write_text(text if output != "p" else text.replace('"2 * p"', '"p"'))
+    assert main(["sweep", str(file), "--vary", varied]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and f"'{output}': this name is taken; give another" in err
+
+
+@pytest.mark.parametrize("name", ["status", "events", "message", "steps"])
+def test_a_varied_value_has_no_name_of_a_column(capsys, tmp_path, name):
+    file = tmp_path / "decay.toml"
+    file.write_text(DECAY.format(name=name, output="y"))
+    assert main(["sweep", str(file), "--vary", f"{name}=1,2"]) == 2
+    assert f"'{name}' is a name of the results" in capsys.readouterr().err
+
+
+def test_an_entry_of_a_recorded_vector_is_no_second_column(capsys, tmp_path):
+    file = tmp_path / "vector.toml"
+    file.write_text(
+        "version = 1\n[states]\nx = { start = 1.0, rate = 0 }\n"
+        'v = { start = 1.0, rate = 0 }\n[outputs]\nx = ["v", "v"]\n[run]\nuntil = 1.0\n'
+    )
+    assert main(["sweep", str(file), "--vary", "x[0]=1,2"]) == 2
+    assert "'x[0]': this name is taken" in capsys.readouterr().err
+    assert main(["sweep", f"{MINE}:ramp", "--vary", "ramp.x[0]=1,2", "--t-end", "1"]) == 0

@@ -1,0 +1,64 @@
+"""The values of blocks by the names of a scene file: `ctl.I` is an entry of a context."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from saltus._signals import blocks_in
+from saltus.errors import ModelError
+from saltus.scene_files.leaf import SceneLeaf
+from saltus.scene_files.state_machine import SceneMachine
+from saltus.system import System
+
+__all__ = ["entry_named"]
+
+
+def entry_named(system: System, tree: dict[str, Any], name: str) -> str:
+    """The name in a context of a value: `ctl.z[1]` of the discrete state `ctl.I`; other names stay.
+
+    ModelError for a parameter of which a new value would be half applied: it is in expressions, and
+    in a start, a period or another number that was computed when the system was made.
+    """
+    path, leaf = _leaf_of(system, name)
+    if not isinstance(leaf, (SceneLeaf, SceneMachine)):
+        return name
+    own = name.rpartition(".")[2]
+    if own in leaf.structural:
+        raise ModelError(
+            f"'{name}' is in equations and in {leaf.structural[own]}, which a block has from its "
+            f"start; a new value would reach the equations alone; {_remedy(tree, path, own)}"
+        )
+    if own in leaf.held:
+        before = name.rpartition(".")[0]
+        return ".".join([*([before] if before else []), f"z[{leaf.held[own]}]"])
+    return name
+
+
+def _leaf_of(system: System, name: str) -> tuple[list[str], System | None]:
+    """The path of the block that has a value, and the block; None if there is none."""
+    path = name.split(".")[:-1]
+    if path and path[0] == system.name and not blocks_in(system):
+        return [], system  # 'ball.T' of the scene 'ball'
+    for part in path:
+        inside = {block.name: block for block in blocks_in(system)}
+        if part not in inside:
+            return path, None
+        system = inside[part]
+    return path, system
+
+
+def _remedy(tree: dict[str, Any], path: list[str], own: str) -> str:
+    if not path:
+        return f"set '{own}', the parameter of the scene"
+    block = tree.get("blocks", {}).get(path[0], {}) if len(path) == 1 else {}
+    said = block.get(own, block.get("parameters", {}).get(own))
+    if isinstance(said, str):
+        names = sorted(set(re.findall(r"[A-Za-z_]\w*", said)))
+        known = [f"'{n}'" for n in names if n in tree.get("parameters", {})]
+        if known:
+            return f"set {' or '.join(known)}, the parameter of the scene from which it is computed"
+    return (
+        f"lead a parameter of the scene to it, as {own} = 'NAME' in the table of the block, and "
+        "set that one"
+    )
