@@ -45,7 +45,7 @@ def _require_writable(flag: str, path: Path) -> None:
     if path.is_dir():
         raise ModelError(f"{flag}: expected the name of a file, found the folder '{path}'")
     if not path.parent.is_dir():
-        raise ModelError(f"{flag}: there is no folder '{path.parent}' for '{path.name}'; make it")
+        raise ModelError(f"{flag}: '{path}': there is no folder '{path.parent}'; make it")
     place = path if path.exists() else path.parent
     if not os.access(place, os.W_OK):
         raise ModelError(f"{flag}: '{place}' is not writable; choose another name")
