@@ -45,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--save-at",
         metavar="T,T,... or N",
-        help="[s] times of the rows, or how many even ones; without it a row for each step",
+        help="[s] times of the rows, 5.0 or 1,2.5; or how many even ones, 101; by default each step",
     )
     parser.add_argument("--csv", type=Path, metavar="FILE", help="the rows")
     parser.add_argument("--plot", type=Path, metavar="FILE", help="a chart: .svg, .png, .pdf")
@@ -67,13 +67,14 @@ def act(chosen: argparse.Namespace) -> int:
     _write(results, chosen)
     if results.status in WELL:
         return 0
-    print(f"saltus run: {results.status}: {_reason(results)}", file=sys.stderr)
+    print(f"saltus run: {results.status}: {_reason(results, scene)}", file=sys.stderr)
     return INTERRUPTED if results.status == "interrupted" else 1
 
 
-def _reason(results: Results) -> str:
+def _reason(results: Results, scene: Chosen) -> str:
     """The message of the run; it begins with the exception of a user's function."""
-    return results.message or "no reason is known"
+    message = results.message or "no reason is known"
+    return message if scene.file is None else scene.file.explained(message)
 
 
 def _recording(

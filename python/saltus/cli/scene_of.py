@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 __all__ = ["Chosen", "chosen_scene"]
 
 
+OTHER_TEXTS = {".txt", ".yaml", ".yml", ".tml", ".ini", ".cfg", ".mo", ".slx"}
+
+
 @dataclass(frozen=True)
 class Chosen:
     """Everything that a run needs."""
@@ -93,6 +96,10 @@ def chosen_scene(name: str, settings: dict[str, Any], file: FileScene | None = N
     if name.endswith(".py"):
         raise ModelError(f"which scene of '{name}'? Say {name}:NAME, of a system in that file")
     if name not in names:
+        if Path(name).exists() or Path(name).suffix.lower() in OTHER_TEXTS:
+            raise ModelError(
+                f"'{name}': a scene file ends in .toml or .json; one of Python is file.py:name"
+            )
         hint = _core.known_names(name, names)
         raise ModelError(
             f"no scene '{name}' on the shelf{hint}. One of your own is file.py:name or module:name"

@@ -49,9 +49,9 @@ def act(chosen: argparse.Namespace) -> int:
         if name in overrides:
             raise ModelError(f"--option {name}: leave it out; a page has its own")
     _without_a_window()
-    page = _written(chosen, scene, span, overrides)
+    page, well = _written(chosen, scene, span, overrides)
     print(page)
-    return 0
+    return 0 if well else 1
 
 
 def _without_a_window() -> None:
@@ -62,7 +62,8 @@ def _without_a_window() -> None:
 
 def _written(
     chosen: argparse.Namespace, scene: Chosen, span: tuple[float, float], overrides: dict[str, Any]
-) -> Path:
+) -> tuple[Path, bool]:
+    """The page, and whether the run ended well."""
     from saltus.simulation import simulate
     from saltus.viewing.view import made_page, written
 
@@ -76,7 +77,7 @@ def _written(
         print(f"saltus view: {results.status}: {results.message}", file=sys.stderr)
     draw = _drawing(chosen.draw, scene, settings_of(chosen.set))
     text = made_page(results, scene.system, scene.name, scene.title, draw, chosen.speed)
-    return written(text, chosen.output, chosen.output is None)
+    return written(text, chosen.output, chosen.output is None), results.status in WELL
 
 
 def _drawing(

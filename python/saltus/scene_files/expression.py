@@ -282,9 +282,14 @@ class _Builder:
 
     def require_arguments(self, node: ast.Call, name: str, count: int | None) -> None:
         given = len(node.args)
-        if node.keywords or (given != count if count is not None else given < 2):
+        if node.keywords:
+            raise self.wrong(
+                f"'{node.keywords[0].arg}=': arguments of {name} have no names here", node
+            )
+        if given != count if count is not None else given < 2:
             wanted = "two or more" if count is None else str(count)
-            raise self.wrong(f"expected {wanted} arguments of {name}, found {given}", node)
+            more = "" if count == 1 else "s"
+            raise self.wrong(f"expected {wanted} argument{more} of {name}, found {given}", node)
 
     def require_table(self, node: ast.expr, x: ast.expr, y: ast.expr) -> None:
         """Wrong for lists of points of different lengths, or that do not increase."""

@@ -71,7 +71,7 @@ def loads(text: str, kind: str = "toml", /, **parameters: Any) -> FileScene:
 
 
 def _scene(source: Source, file: Path | None, parameters: dict[str, Any]) -> FileScene:
-    name = "scene" if file is None else file.stem
+    name = "scene" if file is None else file.stem.replace(".", "_")  # a dot separates a path
     folder = None if file is None else file.parent
     sources = {(): source}
     try:

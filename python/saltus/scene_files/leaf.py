@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import math
 from typing import Any
 
 from saltus.leaf_system import LeafSystem
@@ -10,8 +11,15 @@ from saltus.scene_files.expression import Expression, template
 from saltus.scene_files.functions import list_of, number_of
 from saltus.scene_files.leaf_scope import LeafScope
 from saltus.scene_files.moving import ALWAYS, NEVER, Doubt, Motions
-from saltus.scene_files.names import chosen, require_part_name
-from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
+from saltus.scene_files.names import (
+    chosen,
+    require_part_name,
+    require_texts,
+    truth_at,
+    whole_at,
+)
+from saltus.scene_files.vocabulary import ON_ZENO
+from saltus.scene_files.wrong import Path, Wrong, placed, require_keys, table_at
 
 __all__ = ["LEAF_KEYS", "SceneLeaf", "leaf_of"]
 
@@ -31,6 +39,8 @@ DIRECTIONS = (
     "rising", "edge_detection", "none",
 )  # fmt: skip
 
+AT_START = ("auto", "ignore", "fire", "error")
+
 OTHER = ("x", "z", "mode")
 """names that mean something else in a context"""
 
@@ -46,8 +56,12 @@ class SceneLeaf(LeafSystem):
     """the equalities in its guards that depend on what its inputs are"""
     structural: dict[str, str]
     """the parameters in its equations that are in numbers of the block too, and where"""
+    states: tuple[str, ...]
+    """the names of the continuous states"""
     held: dict[str, int]
     """the discrete states, by name, and their positions"""
+    last: list[tuple[Path, float]]
+    """[s] the last time of each of its updates that ends, and the key that says it"""
 
 
 def leaf_of(path: Path, table: dict[str, Any], name: str, parameters: dict[str, Any]) -> SceneLeaf:
@@ -69,6 +83,7 @@ class _Maker:
         self.motions = {name: ALWAYS for name in scope.states if name in scope.motions}
         self.leaf.motions = self.motions
         self.leaf.held = {name: i for i, name in enumerate(scope.discrete)}
+        self.leaf.last, self.leaf.states = [], tuple(scope.states)
         self.structural: dict[str, str] = {}
 
     def declare(self) -> None:
@@ -101,6 +116,7 @@ class _Maker:
             path = (*self.path, "states", name)
             value = table_at(path, value, "{ start = 1.0, rate = '-k * x' }")
             require_keys(path, value, ("start", "rate", "unit", "description"))
+            require_texts(path, value)
             starts.append(self.number((*path, "start"), value.get("start", 0.0)))
             rates.append(self.scope.expression((*path, "rate"), value.get("rate", 0.0)))
         if starts:
@@ -197,9 +213,14 @@ class _Maker:
             raise Wrong((*path, "to"), "the mode is set already; keep one of 'to' and 'set.mode'")
         names = ("terminal", "max_count", "at_start", "on_zeno", *QUEUE_TRUTHS)
         options: dict[str, Any] = {name: value[name] for name in names if name in value}
-        for name in QUEUE_TRUTHS:
-            if not isinstance(value.get(name, True), bool):
-                raise Wrong((*path, name), f"expected true or false, found {found(value[name])}")
+        for name in ("terminal", *QUEUE_TRUTHS):
+            truth_at((*path, name), value.get(name, True))
+        if "max_count" in value:
+            whole_at((*path, "max_count"), value["max_count"])
+        if "at_start" in value:
+            chosen((*path, "at_start"), value["at_start"], AT_START, "choice")
+        if "on_zeno" in value:
+            chosen((*path, "on_zeno"), value["on_zeno"], [*ON_ZENO, *self.scope.modes], "choice")
         if options.get("on_zeno") in self.scope.modes:
             options["on_zeno"] = self.mode((*path, "on_zeno"), options["on_zeno"])
         if "zeno_tolerance" in value:
@@ -231,6 +252,9 @@ class _Maker:
             raise Wrong(path, "expected times: a 'period', an 'offset', or times 'at', in seconds")
         effect, read = self.effect(path, value)
         callback = self.scope.function(effect, range(len(self.scope.inputs)), read)
+        count = value.get("count")
+        if count is not None:
+            whole_at((*path, "count"), count)
         times = {
             key: self.number((*path, key), value[key])
             for key in ("period", "offset", "end")
@@ -243,13 +267,20 @@ class _Maker:
         ):
             self.leaf.declare_periodic_update(callback, name=name, **times)
             return
-        at = value.get("at")
-        if at is not None:
-            at = at if isinstance(at, list) else [at]
-            at = [self.number((*path, "at", i), time) for i, time in enumerate(at)]
-        self.leaf.declare_time_event(
-            callback, times=at, count=value.get("count"), name=name, **times
-        )
+        at = self.times((*path, "at"), value["at"]) if "at" in value else None
+        if at is not None or "end" in times:
+            key = "at" if at is not None else "end"
+            last = min(max(at or [math.inf]), times.get("end", math.inf))
+            self.leaf.last.append(((*path, key), last))
+        self.leaf.declare_time_event(callback, times=at, count=count, name=name, **times)
+
+    def times(self, path: Path, value: Any) -> list[float]:
+        """One time, or a list of times."""
+        if not isinstance(value, list):
+            return [self.number(path, value)]
+        if not value:
+            raise Wrong(path, "expected times [s] such as [1.0, 2.5], found an empty list")
+        return [self.number((*path, i), time) for i, time in enumerate(value)]
 
     def effect(self, path: Path, value: dict[str, Any]) -> tuple[ast.expr | None, list[Expression]]:
         """The state after an event, and its expressions. All of them read the state before the

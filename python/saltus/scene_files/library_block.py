@@ -92,7 +92,7 @@ def _argument(
     kind = str(parameter.annotation)
     if "Callable" in kind:
         return _function(path, block, value, values)
-    if "Mapping" in kind and isinstance(value, dict):
+    if kind.startswith("Mapping") or ("Mapping" in kind and isinstance(value, dict)):
         table = table_at(path, value, "{ out = 1.0 }")
         return {key: value_of((*path, key), each, values) for key, each in table.items()}
     if isinstance(value, str) and "str" in kind:

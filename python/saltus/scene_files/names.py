@@ -11,7 +11,17 @@ from saltus._core import known_names
 from saltus.scene_files.vocabulary import RESERVED
 from saltus.scene_files.wrong import Path, Wrong, found
 
-__all__ = ["chosen", "named_path", "named_vector", "require_part_name", "require_word", "text_at"]
+__all__ = [
+    "chosen",
+    "named_path",
+    "named_vector",
+    "require_part_name",
+    "require_texts",
+    "require_word",
+    "text_at",
+    "truth_at",
+    "whole_at",
+]
 
 PART = re.compile(r"[A-Za-z0-9_-]+")
 VECTOR = re.compile(r"\s*(\w+)\s*(?:\[\s*(\d{1,6})\s*\])?\s*")
@@ -43,6 +53,10 @@ def named_vector(path: Path, text: Any) -> tuple[str, int | None]:
     match = VECTOR.fullmatch(text) if isinstance(text, str) else None
     if match is None:
         raise Wrong(path, f"expected a name, 'u', or that of a vector, 'w[3]', found {found(text)}")
+    if match[2] is not None and int(match[2]) == 0:
+        raise Wrong(
+            path, f"expected a vector of 1 entry or more, such as 'w[3]', found {found(text)}"
+        )
     return match[1], int(match[2]) if match[2] else None
 
 
@@ -50,6 +64,27 @@ def text_at(path: Path, value: Any, example: str) -> str:
     """A text; Wrong for anything else."""
     if not isinstance(value, str):
         raise Wrong(path, f"expected text such as '{example}', found {found(value)}")
+    return value
+
+
+def require_texts(path: Path, table: Mapping[str, Any]) -> None:
+    """Wrong for a unit or a description that is no text."""
+    for key, example in (("unit", "m/s"), ("description", "height over the floor")):
+        if key in table:
+            text_at((*path, key), table[key], example)
+
+
+def truth_at(path: Path, value: Any) -> bool:
+    """A truth; Wrong for anything else."""
+    if not isinstance(value, bool):
+        raise Wrong(path, f"expected true or false, found {found(value)}")
+    return value
+
+
+def whole_at(path: Path, value: Any) -> int:
+    """A whole number from 1 on; Wrong for anything else."""
+    if type(value) is not int or value < 1:
+        raise Wrong(path, f"expected a whole number from 1 on, found {found(value)}")
     return value
 
 

@@ -94,29 +94,47 @@ def _json(source: Source) -> Any:
         at = re.search(r": line (\d+) column (\d+) \(char \d+\)", str(error))
         raise _syntax(source, "JSON", str(error), at) from None
     except _Refused as error:
-        raise SceneError(f"{source.file}: {error}", file=source.file) from None
+        line, column = _place_of(source.text, error)
+        raise SceneError(
+            f"{source.file}:{line}:{column}: {error}", file=source.file, line=line, column=column
+        ) from None
 
 
 class _Refused(Exception):
-    pass
+    """A mistake that the parser of JSON does not place, and the pattern of its text."""
+
+    def __init__(self, message: str, pattern: str, times: int):
+        super().__init__(message)
+        self.pattern, self.times = pattern, times
+
+
+def _place_of(text: str, error: _Refused) -> tuple[int, int]:
+    """Line and column of the place; of a key that stands often, of its second one in the file."""
+    found = [match.start() for match in re.finditer(error.pattern, text)][: error.times]
+    return _end(text[: found[-1]] if found else text)
 
 
 def _no_key_twice(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     table = dict(pairs)
     if len(table) < len(pairs):
         twice = Counter(name for name, _ in pairs).most_common(1)[0][0]
-        raise _Refused(f"key '{twice}' stands twice in one table; keep one of them")
+        pattern = re.escape(json.dumps(twice, ensure_ascii=False)) + r"\s*:"
+        raise _Refused(f"key '{twice}' stands twice in one table; keep one of them", pattern, 2)
     return table
 
 
 def _no_constant(name: str) -> Any:
-    raise _Refused(f"expected a number, found {name}; an infinite one is written as text, 'inf'")
+    message = f"expected a number, found {name}; an infinite one is written as text, 'inf'"
+    raise _Refused(message, rf"(?<![\w\"]){name}(?![\w\"])", 1)
 
 
 def _syntax(source: Source, what: str, said: str, at: re.Match[str] | None) -> SceneError:
     if at is not None:
         said = said.replace(at[0], "")
     line, column = (int(at[1]), int(at[2])) if at is not None and at[1] else _end(source.text)
+    if said == "Cannot overwrite a value":  # the parser says where, and not which key
+        key = source.text.split("\n")[line - 1].partition("=")[0].strip()
+        said = f"key '{key}' stands twice in one table; keep one of them"
     return SceneError(
         f"{source.file}:{line}:{column}: no {what}: {said[:1].lower()}{said[1:]}",
         file=source.file, line=line, column=column,
@@ -151,6 +169,5 @@ def _value(path: Keys, value: Any) -> Any:
         )
     if isinstance(value, (str, int, float)):
         return value
-    raise Wrong(
-        path, f"expected text, a number, a truth, a list or a table, found a {type(value).__name__}"
-    )
+    kind = "null; leave the key out" if value is None else f"a {type(value).__name__}"
+    raise Wrong(path, f"expected text, a number, a truth, a list or a table, found {kind}")

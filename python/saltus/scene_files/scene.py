@@ -11,14 +11,15 @@ from typing import TYPE_CHECKING, Any
 
 from saltus import _core
 from saltus._porting import missing
+from saltus._signals import blocks_in
 from saltus.ensemble.sweep import sweep
-from saltus.errors import ModelError
+from saltus.errors import ModelError, SimulationError
 from saltus.options import atol_beside
 from saltus.results import Results
 from saltus.scene_files.run import Run, Sweep, run_of, sweep_of
 from saltus.scene_files.source import Source, error_of
 from saltus.scene_files.systems import parameters_of, system_of_table
-from saltus.scene_files.values import entry_named
+from saltus.scene_files.values import entry_named, states_named
 from saltus.scene_files.writing import text_of
 from saltus.scene_files.wrong import Path as Keys
 from saltus.scene_files.wrong import Wrong, placed
@@ -104,6 +105,25 @@ class FileScene:
             self._check()
         with placed(("run", "begin")):
             self.context = self.system.create_context(run.begin)
+        self._require_swept()
+        _require_updates(self.system, run.begin)
+
+    def _require_swept(self) -> None:
+        """Wrong for a name of the table `sweep` that the scene does not have."""
+        for name in self.swept.values:
+            if name not in self.parameters:
+                with placed(("sweep", "values", name)):
+                    self._require_value(name)
+
+    def _require_value(self, name: str) -> None:
+        try:
+            _core.find_entry(self.context, self.entry_named(name))
+        except ModelError as error:
+            if "unknown" not in str(error):
+                raise
+            names = list(dict.fromkeys([*self.parameters, *_core.entry_names(self.context)]))
+            hint = _core.known_names(name, names)
+            raise ModelError(f"unknown parameter or state '{name}'{hint}") from None
 
     def _check(self) -> None:
         """Compiles the system, which finds shapes that do not fit and loops."""
@@ -144,12 +164,20 @@ class FileScene:
             As from `saltus.simulate`; ModelError also if the file gives no end of the run.
         """
         options = self._with_atol(options)
-        return simulate(self.system, self.context, self._span(), self.options, **options)
+        try:
+            return simulate(self.system, self.context, self._span(), self.options, **options)
+        except SimulationError as error:
+            error.args = (states_named(str(error), self.system), *error.args[1:])
+            raise
 
     @property
     def writes_atol(self) -> bool:
         """Whether the file says `atol`. Otherwise it is rtol/100, also of another rtol."""
         return "atol" in self.tree.get("run", {})
+
+    def explained(self, message: str) -> str:
+        """The message of a run that failed, with the names of the states of the file."""
+        return states_named(message, self.system)
 
     def _with_atol(self, options: dict[str, Any]) -> dict[str, Any]:
         rtol = options.get("rtol")
@@ -306,6 +334,17 @@ def _path_in(scene: FileScene, name: str) -> str:
     """The path of a recorded signal, which is valid also in a system that is made anew."""
     record = scene.tree.get("run", {}).get("record")
     return str(record[name]) if isinstance(record, dict) else name
+
+
+def _require_updates(system: System, begin: float) -> None:
+    """Wrong for updates of a block that all come before the run begins."""
+    for path, last in getattr(system, "last", ()):
+        if last < begin:
+            raise Wrong(
+                path, f"expected a time from {begin:g} s on, the begin of the run, found {last:g}"
+            )
+    for block in blocks_in(system):
+        _require_updates(block, begin)
 
 
 def _named(message: str, tree: dict[str, Any]) -> Keys:

@@ -11,7 +11,13 @@ from saltus.errors import ModelError
 from saltus.scene_files.functions import value_of
 from saltus.scene_files.leaf import LEAF_KEYS, leaf_of
 from saltus.scene_files.library_block import SUBSYSTEMS, library_block
-from saltus.scene_files.names import named_path, require_part_name, require_word, text_at
+from saltus.scene_files.names import (
+    named_path,
+    require_part_name,
+    require_texts,
+    require_word,
+    text_at,
+)
 from saltus.scene_files.wires import wires_of
 from saltus.scene_files.wiring import DiagramPart, Part, part_of
 from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
@@ -68,6 +74,7 @@ def parameters_of(path: Path, table: dict[str, Any], given: dict[str, Any]) -> d
         require_word((*path, name), name, {}, "parameter")
         if isinstance(value, dict):
             require_keys((*path, name), value, ("value", "unit", "description"), ("value",))
+            require_texts((*path, name), value)
             value = value["value"]
         value = given.get(name, value)
         if isinstance(value, bool):
@@ -105,6 +112,7 @@ def _with_systems(place: Place, table: dict[str, Any]) -> Place:
         require_part_name((*path, name), name, "system")
         inner = table_at((*path, name), inner, "{ states = ... }")
         require_keys((*path, name), inner, SYSTEM_KEYS)
+        require_texts((*path, name), {k: v for k, v in inner.items() if k == "description"})
         known[name] = ((*path, name), inner, made)
     return made
 

@@ -11,7 +11,9 @@ from saltus.scene_files.leaf import SceneLeaf
 from saltus.scene_files.state_machine import SceneMachine
 from saltus.system import System
 
-__all__ = ["entry_named"]
+__all__ = ["entry_named", "states_named"]
+
+RATE = re.compile(r"block '([^']+)'(.*?)xdot\[(\d+)\] = (\S+) where x = \[([^\]]*)\]")
 
 
 def entry_named(system: System, tree: dict[str, Any], name: str) -> str:
@@ -62,3 +64,20 @@ def _remedy(tree: dict[str, Any], path: list[str], own: str) -> str:
         f"lead a parameter of the scene to it, as {own} = 'NAME' in the table of the block, and "
         "set that one"
     )
+
+
+def states_named(message: str, system: System) -> str:
+    """The message of a run that failed, with the names of states in place of their positions."""
+    match = RATE.search(message)
+    if match is None:
+        return message
+    block, between, position, rate, values = match.groups()
+    leaf = system if block == system.name else _leaf_of(system, f"{block}.x")[1]
+    if not isinstance(leaf, SceneLeaf) or int(position) >= len(leaf.states):
+        return message
+    shown = ", ".join(
+        f"{name} = {value}" for name, value in zip(leaf.states, values.split(", "), strict=False)
+    )
+    name = leaf.states[int(position)]
+    said = f"block '{block}'{between}the rate of '{name}' is {rate} where {shown}"
+    return message[: match.start()] + said + message[match.end() :]
