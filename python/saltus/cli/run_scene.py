@@ -45,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--save-at",
         metavar="T,T,... or N",
-        help="[s] times of the rows, 5.0 or 1,2.5; or how many even ones, 101; by default each step",
+        help="[s] times of the rows, 5.0 or 1,2.5; or how many even ones, 101; else each step",
     )
     parser.add_argument("--csv", type=Path, metavar="FILE", help="the rows")
     parser.add_argument("--plot", type=Path, metavar="FILE", help="a chart: .svg, .png, .pdf")
