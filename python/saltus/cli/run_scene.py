@@ -74,7 +74,11 @@ def act(chosen: argparse.Namespace) -> int:
 def _reason(results: Results, scene: Chosen) -> str:
     """The message of the run; it begins with the exception of a user's function."""
     message = results.message or "no reason is known"
-    return message if scene.file is None else scene.file.explained(message)
+    if scene.file is None:
+        return message
+    from saltus.scene_files.values import states_named
+
+    return states_named(message, scene.system)
 
 
 def _recording(

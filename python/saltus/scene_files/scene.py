@@ -175,10 +175,6 @@ class FileScene:
         """Whether the file says `atol`. Otherwise it is rtol/100, also of another rtol."""
         return "atol" in self.tree.get("run", {})
 
-    def explained(self, message: str) -> str:
-        """The message of a run that failed, with the names of the states of the file."""
-        return states_named(message, self.system)
-
     def _with_atol(self, options: dict[str, Any]) -> dict[str, Any]:
         rtol = options.get("rtol")
         if "atol" in options or self.writes_atol or not isinstance(rtol, (float, list, tuple)):
