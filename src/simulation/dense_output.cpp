@@ -1,6 +1,7 @@
 // Dense output: the readers of all islands as one.
 #include "saltus/simulation/dense_output.hpp"
 
+#include "saltus/simulation/detail/recorded_under.hpp"
 #include "saltus/simulation/detail/trajectory_reader.hpp"
 
 namespace saltus {
@@ -66,12 +67,7 @@ VectorView DenseOutput::signal(std::size_t i) const {
 const std::vector<Tap>& DenseOutput::taps() const { return reader_->whole.plan()->taps; }
 
 const Eigen::VectorXd& Moment::output(std::string_view name) const {
-  std::vector<std::string> known;
-  for (const auto& [each, value] : outputs) {
-    if (each == name) return value;
-    known.push_back(each);
-  }
-  throw ModelError(text("nothing was recorded under '", name, "'", known_names(name, known)));
+  return detail::recorded_under(outputs, name, &decltype(outputs)::value_type::first).second;
 }
 
 }  // namespace saltus

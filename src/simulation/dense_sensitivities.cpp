@@ -1,6 +1,7 @@
 // Dense sensitivities: a probe beside the reader of each island.
 #include "saltus/simulation/dense_sensitivities.hpp"
 
+#include "saltus/simulation/detail/recorded_under.hpp"
 #include "saltus/simulation/detail/signal_tangents.hpp"
 #include "saltus/simulation/detail/tangent_flow.hpp"
 #include "saltus/simulation/detail/trajectory_reader.hpp"
@@ -124,12 +125,7 @@ const Eigen::MatrixXd& DenseSensitivities::signal(std::size_t i) const {
 }
 
 const Eigen::MatrixXd& MomentSensitivities::output(std::string_view name) const {
-  std::vector<std::string> known;
-  for (const auto& [each, value] : outputs) {
-    if (each == name) return value;
-    known.push_back(each);
-  }
-  throw ModelError(text("nothing was recorded under '", name, "'", known_names(name, known)));
+  return detail::recorded_under(outputs, name, &decltype(outputs)::value_type::first).second;
 }
 
 }  // namespace saltus

@@ -1,15 +1,11 @@
 // Results: a recorded signal by name, and the run at any time.
 #include "saltus/simulation/results.hpp"
+#include "saltus/simulation/detail/recorded_under.hpp"
 
 namespace saltus {
 
 const RecordedSignal& Results::signal(std::string_view name) const {
-  std::vector<std::string> known;
-  for (const RecordedSignal& signal : signals) {
-    if (signal.name == name) return signal;
-    known.push_back(signal.name);
-  }
-  throw ModelError(text("nothing was recorded under '", name, "'", known_names(name, known)));
+  return detail::recorded_under(signals, name, &RecordedSignal::name);
 }
 
 Eigen::Map<const RecordedSignal::Matrix> Results::output(std::string_view name) const {

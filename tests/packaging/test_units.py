@@ -52,6 +52,7 @@ ELSEWHERE = {
     "simulation/detail/island_tangents": "laws/island_sensitivities_test.cpp",
     "simulation/detail/option_table": "unit/options_test.cpp",
     "simulation/detail/poles": "laws/poles_test.cpp",
+    "simulation/detail/recorded_under": "unit/dense_output_test.cpp",
     "simulation/detail/rows": "laws/rows_test.cpp",
     "simulation/detail/run": "semantics/results_resume_test.cpp",
     "simulation/detail/side_by_side": "laws/island_threads_test.cpp",
