@@ -32,8 +32,11 @@ bool has_masked_entries(py::handle object) {
 /// real, is masked, or cannot be converted.
 Array real_array(py::handle object) {
   const py::array array = py::array::ensure(object);
-  const bool real = array && is_real(array) && !has_masked_entries(object);
-  Array numbers = real ? Array::ensure(object) : py::reinterpret_steal<Array>(nullptr);
+  Array numbers = py::reinterpret_steal<Array>(nullptr);
+  if (array && is_real(array) && !has_masked_entries(object)) {
+    numbers = Array::ensure(array);
+    if (!numbers) PyErr_Clear(), numbers = Array::ensure(object);  // its objects convert themselves
+  }
   if (!numbers) PyErr_Clear();
   return numbers;
 }

@@ -1,7 +1,7 @@
 // Tangents: guards that wait at zero at the end of an instant.
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <optional>
 
 #include "saltus/simulation/detail/tangents.hpp"
 
@@ -52,13 +52,13 @@ void Tangents::look_at_waiting(std::size_t number, const Eigen::VectorXd& flow) 
   const double terms = guard.by_state.cwiseAbs().dot(flow.cwiseAbs()) + std::abs(guard.by_time);
   const bool rests = !(std::abs(slope) > zero_part * terms);
   if (group.is_crossing() && (rests || !fires_along(record.direction, slope))) return;
+  std::optional<bool> turns;  // whether the truth decides; the same for all columns
   for (Index k = 0; k < size(); ++k) {
     const double all = guard.by_state.cwiseAbs().dot(columns_.x.col(k).cwiseAbs()) +
                        terms * std::abs(columns_.t[k]);  // they cancel at the guard's own root
     if (!(std::abs(guard.columns[k]) > zero_part * all)) continue;
-    if (!group.is_crossing() && !decides(group, record.entry, flow) &&
-        !(rests && bends(group, record.entry, k)))
-      continue;
+    if (!turns) turns = group.is_crossing() || decides(group, record.entry, flow);
+    if (!*turns && !(rests && bends(group, record.entry, k))) continue;
     lose(k, group.name,
          rests ? "the relation rests at its root"
                : "the guard is at zero, and the flow takes it across");

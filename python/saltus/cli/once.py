@@ -31,7 +31,7 @@ class OnceAction(argparse.Action):
         setattr(namespace, self.dest, values)
 
 
-class OnceTrueAction(argparse.Action):
+class OnceTrueAction(OnceAction):
     """A flag without a value."""
 
     def __init__(self, option_strings: list[str], dest: str, **options: Any):
@@ -44,5 +44,4 @@ class OnceTrueAction(argparse.Action):
         values: Any,
         option_string: str | None = None,
     ) -> None:
-        _note(self, namespace)
-        setattr(namespace, self.dest, True)
+        super().__call__(parser, namespace, True, option_string)
