@@ -7,10 +7,11 @@ import matplotlib
 from matplotlib.figure import Figure
 
 import saltus
+import saltus.jit
 from saltus.report import chart
 
 COLOURS = {
-    "Saltus": "#000000", "SciPy": "#D55E00", "scikit-sundae": "#009E73", "heyoka": "#0072B2",
+    "Saltus": "#000000", "Saltus, Python": "#888888", "SciPy": "#D55E00", "scikit-sundae": "#009E73", "heyoka": "#0072B2",
     "diffrax": "#CC79A7",
 }  # fmt: skip
 STYLES = ("-", "--", ":", "-.")  # by method
@@ -21,11 +22,12 @@ Time to reach an achieved error, each program with the methods it offers for the
 warm, in one process each, one after the other on the same machine. `bench/peers/run.py` measures it and writes this page.
 
 The error is the larger one of the state at the end and of the event times, these over max(1 s, t), against closed forms or published
-numbers (`bench/peers/reference.py`); with an event missing or too many there is none. Saltus runs the scenes of its shelf, which are
-compiled C++ with events logged; heyoka and diffrax compile theirs when they are first used, which is not counted here; SciPy and
+numbers (`bench/peers/reference.py`); with an event missing or too many there is none. The column "Saltus" runs the scenes of its shelf, which
+are compiled C++ with events logged; "Saltus, Python" has the plain Python functions that the other programs have too, traced, {jit},
+and a simulator that is used again. heyoka and diffrax compile theirs when they are first used, which is not counted here; SciPy and
 scikit-sundae call Python functions. That is how each is meant to be used, but the last two are slow by the calls more than by their
 methods. A dash: not reached at the five tolerances from 1e-4 to 1e-12 that were tried. The planet of the shelf always has its
-monitor, so Saltus has no row in "kepler-alone", which is the same scene without. heyoka is explicit and is not asked for Robertson.
+monitor, so the column "Saltus" is empty in "kepler-alone", which is the same scene without. heyoka is explicit and is not asked for Robertson.
 pathsim, Drake and Collimator have no adapter yet. Adapters are a page each, in `bench/peers/`; better ones are welcome.
 
 Measured on: {machine}. Versions: {versions}.
@@ -88,7 +90,8 @@ def write(rows, said, page, requirements, date):
         saltus.scene("bouncing-ball"), methods=["dopri5"], rtols=[1e-4]
     ).environment
     machine = f"{e['cpu']}, {e['cores']} cores; {e['compiler']}, SUNDIALS {e['sundials']}; {date}"
-    text = HEAD.format(machine=machine, versions=versions(requirements, peers))
+    jit = "as machine code" if saltus.jit.is_installed() else "without machine code"
+    text = HEAD.format(machine=machine, jit=jit, versions=versions(requirements, peers))
     text += "".join(f"{line}.\n\n" for line in said)
     page.with_suffix("").mkdir(exist_ok=True)
     for scene in dict.fromkeys(row["scene"] for row in rows):

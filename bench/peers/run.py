@@ -64,7 +64,9 @@ def main(chosen):
     from page import write
     from reference import answers
 
-    true, rows, said = answers(), rows_of(sys.executable, "saltus_shelf.py"), []
+    true, rows, said = answers(), [], []
+    for script in ("saltus_shelf.py", "saltus_traced.py"):
+        rows += rows_of(sys.executable, script)
     for peer in chosen or PEERS:
         try:
             rows += rows_of(environment(peer), PEERS[peer])

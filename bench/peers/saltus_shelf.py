@@ -10,7 +10,7 @@ from scenes import SCENES
 
 import saltus
 
-METHODS = {False: ("dopri5", "dop853", "auto"), True: ("bdf", "auto")}
+METHODS = {False: ("dopri5", "dop853", "taylor", "auto"), True: ("radau", "bdf", "auto")}
 
 
 def rows(name, scene):
@@ -28,8 +28,9 @@ def rows(name, scene):
         }  # fmt: skip
 
 
-for scene_name in SCENES:
-    if scene_name != "kepler-alone":  # the shelf's has its monitor always
-        for found in rows(scene_name, SCENES[scene_name]):
-            print(json.dumps(found))
-            sys.stdout.flush()
+if __name__ == "__main__":
+    for scene_name in SCENES:
+        if scene_name != "kepler-alone":  # the shelf's has its monitor always
+            for found in rows(scene_name, SCENES[scene_name]):
+                print(json.dumps(found))
+                sys.stdout.flush()
