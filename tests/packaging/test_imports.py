@@ -29,7 +29,7 @@ LATE = {
     ("saltus.library", "saltus.library.called"): "answers names that are wrong",
     ("saltus._porting", "saltus.parameters.noted"): "most blocks are given numbers",
     ("saltus.leaf_system.values", "saltus.parameters.noted"): "most blocks are given numbers",
-    ("saltus.diagram", "saltus.parameters.shared"): "most diagrams have no parameters",
+    ("saltus.diagram.builder", "saltus.parameters.shared"): "most diagrams have no parameters",
     ("saltus.parameter", "saltus.tracing.numbers"): "most diagrams have no parameters",
     ("saltus.ports", "saltus._evaluate"): "a system has ports, and these are evaluated with it",
     ("saltus.linearization", "saltus._step"): "step responses, which most scripts leave alone",
@@ -49,7 +49,7 @@ LATE = {
     ("saltus.results.charts", "saltus.results.charts.signals"): "loads matplotlib",
     ("saltus.results.charts", "saltus.results.charts.signals_plotly"): "loads plotly",
     ("saltus.results.charts", "saltus.results.charts.zeno"): "loads matplotlib",
-    ("saltus.results.outcome", "saltus.results.islands"): "rows of islands, which few runs have",
+    ("saltus.results.rows", "saltus.results.islands"): "rows of islands, which few runs have",
     (
         "saltus.results.outcome",
         "saltus.results.outside",
