@@ -9,7 +9,7 @@ from typing import Any
 from saltus.leaf_system import LeafSystem
 from saltus.scene_files.expression import Expression, template
 from saltus.scene_files.functions import list_of, number_of
-from saltus.scene_files.leaf_scope import LeafScope
+from saltus.scene_files.leaf_scope import WEIGHT, LeafScope
 from saltus.scene_files.moving import ALWAYS, NEVER, Doubt, Motions
 from saltus.scene_files.names import (
     chosen,
@@ -25,13 +25,14 @@ __all__ = ["LEAF_KEYS", "SceneLeaf", "leaf_of"]
 
 LEAF_KEYS = (
     "states", "discrete", "modes", "mode", "inputs", "variables", "outputs", "guards", "edges",
-    "updates",
+    "updates", "event_inputs",
 )  # fmt: skip
 GUARD_KEYS = (
     "guard", "direction", "from", "to", "set", "terminal", "max_count", "zeno_tolerance",
     "at_start", "on_zeno", "delay", "priority", "persistent", "initial_value",
     "use_values_from_trigger_time",
 )  # fmt: skip
+TABLES = tuple(key for key in LEAF_KEYS if key not in ("modes", "mode", "inputs"))
 QUEUE_TRUTHS = ("persistent", "initial_value", "use_values_from_trigger_time")
 UPDATE_KEYS = ("period", "offset", "at", "end", "count", "set")
 DIRECTIONS = (
@@ -60,13 +61,15 @@ class SceneLeaf(LeafSystem):
     """the names of the continuous states"""
     held: dict[str, int]
     """the discrete states, by name, and their positions"""
+    held_outputs: tuple[str, ...] = ()
+    """the outputs that show a discrete state or the mode, and that the file does not name"""
     last: list[tuple[Path, float]]
     """[s] the last time of each of its updates that ends, and the key that says it"""
 
 
 def leaf_of(path: Path, table: dict[str, Any], name: str, parameters: dict[str, Any]) -> SceneLeaf:
     """The system of a table. Wrong for a mistake in it."""
-    for key in ("states", "discrete", "variables", "outputs", "guards", "edges", "updates"):
+    for key in TABLES:
         table_at((*path, key), table.get(key, {}), "{ name = ... }")
     scope = LeafScope(parameters=parameters)
     scope.add_table(path, table)
@@ -97,12 +100,14 @@ class _Maker:
             ("guards", self.guard),
             ("edges", self.edge),
             ("updates", self.update),
+            ("event_inputs", self.event_input),
         ):
             for name, value in self.table.get(what, {}).items():
                 path = (*self.path, what, name)
-                require_part_name(path, name, what[:-1])
+                require_part_name(path, name, what[:-1].replace("_", " "))
                 with placed(path):
                     declare(path, name, value)
+        self.held_outputs()
         for name, value in self.scope.parameters.items():
             if name in self.scope.read:
                 with placed((*self.path, "parameters", name)):
@@ -172,6 +177,28 @@ class _Maker:
             boolean=not many and parts[0].boolean,
             reads=self.scope.rates_of(parts),
         )
+
+    def held_outputs(self) -> None:
+        """The outputs that show a discrete state, the mode, and whether it is that of a name, for
+        whoever records them. An output of the file with such a name stays what it is.
+        """
+        shown = set(self.leaf.output_names)
+        held = [(name, name, "discrete_state", False) for name in self.scope.discrete]
+        held += [(name, f"mode == {name}", "mode", True) for name in self.scope.modes]
+        for name, text, read, truth in held:
+            if name not in shown:
+                made = self.scope.expression((*self.path, name), text)
+                self.leaf.declare_output_port(
+                    self.scope.function(made.tree, (), [made]),
+                    name=name,
+                    requires_inputs=(),
+                    shape=(),
+                    boolean=truth,
+                    reads=[read],
+                )
+        if self.scope.modes and "mode" not in shown:
+            self.leaf.declare_mode_output("mode")
+        self.leaf.held_outputs = tuple(n for n in self.leaf.output_names if n not in shown)
 
     def guard(self, path: Path, name: str, value: Any) -> None:
         value = table_at(path, value, "{ guard = 'y', direction = 'falling' }")
@@ -243,6 +270,16 @@ class _Maker:
             edge=value.get("edge", "rising"),
             name=name,
             requires_inputs=inputs,
+        )
+
+    def event_input(self, path: Path, name: str, value: Any) -> None:
+        value = table_at(path, value, "{ set = { v = 'v + weight' } }")
+        require_keys(path, value, ("set",), ("set",))
+        with self.scope.with_weight(path):
+            effect, read = self.effect(path, value)
+        inputs = self.scope.inputs_of(read)
+        self.leaf.declare_event_input(
+            self.scope.function(effect, inputs, read, (WEIGHT,)), name=name, requires_inputs=inputs
         )
 
     def update(self, path: Path, name: str, value: Any) -> None:

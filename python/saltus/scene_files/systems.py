@@ -8,6 +8,7 @@ from typing import Any
 from saltus._core import known_names
 from saltus.diagram import DiagramBuilder
 from saltus.errors import ModelError
+from saltus.scene_files.event_wires import EVENT_KEYS, add_event_wires, export_events
 from saltus.scene_files.functions import value_of
 from saltus.scene_files.leaf import LEAF_KEYS, leaf_of
 from saltus.scene_files.library_block import SUBSYSTEMS, library_block
@@ -25,7 +26,7 @@ from saltus.system import System
 
 __all__ = ["SYSTEM_KEYS", "parameters_of", "system_of_table"]
 
-DIAGRAM_KEYS = ("blocks", "wires", "inputs", "outputs")
+DIAGRAM_KEYS = ("blocks", "wires", "inputs", "outputs", *EVENT_KEYS)
 SHARED_KEYS = ("description", "parameters", "systems")
 SYSTEM_KEYS = tuple(dict.fromkeys((*SHARED_KEYS, *DIAGRAM_KEYS, *LEAF_KEYS)))
 MOST_BLOCKS = 100_000
@@ -89,7 +90,7 @@ def system_of_table(
     """The system of a table whose parameters have these values. Wrong for a mistake in it."""
     place = place or Place((), {}, (), Count())
     if "blocks" not in table:
-        for key in ("wires", "systems"):
+        for key in ("wires", "systems", "event_wires", "event_outputs"):
             if key in table:
                 raise Wrong((*place.path, key), f"'{key}' of a scene without 'blocks'; write these")
         place.count.one_more(place.path)
@@ -134,6 +135,9 @@ def _diagram(table: dict[str, Any], name: str, values: dict[str, Any], place: Pl
         with placed(at):
             builder.connect(source, destination)
         sources[destination] = source
+    wires = table.get("event_wires", [])
+    add_event_wires((*place.path, "event_wires"), wires, made, values, builder)
+    export_events(place.path, table, made, builder)
     ends: dict[str, dict[str, str]] = {"inputs": {}, "outputs": {}}
     for what, export in (("inputs", builder.export_input), ("outputs", builder.export_output)):
         at = (*place.path, what)
