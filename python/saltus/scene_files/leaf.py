@@ -57,6 +57,18 @@ class SceneLeaf(LeafSystem):
     """the equalities in its guards that depend on what its inputs are"""
     structural: dict[str, str]
     """the parameters in its equations that are in numbers of the block too, and where"""
+    fixed: frozenset[str]
+    """the parameters in numbers of the block that are no starts of states, as a period"""
+    read: frozenset[str]
+    """the parameters in its equations"""
+    expressions: list[tuple[Path, Any, Expression]]
+    """the expressions of its equations, with their keys and texts"""
+    state_names: list[str]
+    """the names of the continuous states in a context; none if they are `x[0]`, ... there"""
+    starts: list[tuple[Path, Any]]
+    """the starts of the continuous states: keys and texts"""
+    held_starts: list[tuple[Path, Any]]
+    """the starts of the discrete states: keys and texts"""
     states: tuple[str, ...]
     """the names of the continuous states"""
     held: dict[str, int]
@@ -88,6 +100,7 @@ class _Maker:
         self.leaf.held = {name: i for i, name in enumerate(scope.discrete)}
         self.leaf.last, self.leaf.states = [], tuple(scope.states)
         self.structural: dict[str, str] = {}
+        self.started: dict[str, str] = {}
 
     def declare(self) -> None:
         for name, size in self.scope.inputs.items():
@@ -113,27 +126,36 @@ class _Maker:
                 with placed((*self.path, "parameters", name)):
                     self.leaf.declare_dynamic_parameter(name, value)
         read = self.scope.read
-        self.leaf.structural = {name: key for name, key in self.structural.items() if name in read}
+        keys = self.started | self.structural
+        self.leaf.structural = {name: key for name, key in keys.items() if name in read}
+        self.leaf.fixed, self.leaf.read = frozenset(self.structural), frozenset(read)
+        self.leaf.expressions = self.scope.made
 
     def states(self) -> None:
-        starts, rates = [], []
+        starts: list[tuple[Path, Any]] = []
+        rates = []
         for name, value in self.table.get("states", {}).items():
             path = (*self.path, "states", name)
             value = table_at(path, value, "{ start = 1.0, rate = '-k * x' }")
             require_keys(path, value, ("start", "rate", "unit", "description"))
             require_texts(path, value)
-            starts.append(self.number((*path, "start"), value.get("start", 0.0)))
+            starts.append(((*path, "start"), value.get("start", 0.0)))
             rates.append(self.scope.expression((*path, "rate"), value.get("rate", 0.0)))
+        self.leaf.starts, self.leaf.state_names = starts, []
         if starts:
             inputs = self.scope.inputs_of(rates)
             ode = self.scope.function(list_of(rates), inputs, rates)
+            self.leaf.state_names = self.state_names()
+            numbers = [self.start(*each) for each in starts]
             with placed((*self.path, "states")):
                 self.leaf.declare_continuous_state(
-                    starts, ode=ode, requires_inputs=inputs, names=self.state_names()
+                    numbers, ode=ode, requires_inputs=inputs, names=self.leaf.state_names
                 )
-        held = self.table.get("discrete", {})
+        path = (*self.path, "discrete")
+        held = [((*path, name), value) for name, value in self.table.get("discrete", {}).items()]
+        self.leaf.held_starts = held
         if held:
-            values = [self.number((*self.path, "discrete", n), v) for n, v in held.items()]
+            values = [self.start(*each) for each in held]
             with placed((*self.path, "discrete")):
                 self.leaf.declare_discrete_state(values)
 
@@ -156,6 +178,9 @@ class _Maker:
 
     def mode(self, path: Path, value: Any) -> int:
         return self.scope.modes.index(chosen(path, value, self.scope.modes, "mode"))
+
+    def start(self, path: Path, value: Any) -> float:
+        return number_of(path, value, self.scope.parameters, self.started)
 
     def number(self, path: Path, value: Any) -> float:
         return number_of(path, value, self.scope.parameters, self.structural)

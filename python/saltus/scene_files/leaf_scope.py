@@ -45,6 +45,8 @@ class LeafScope:
     """the parameters that some expression reads"""
     motions: dict[str, frozenset[str]] = field(default_factory=dict)
     """what moves each name between events"""
+    made: list[tuple[Path, Any, Expression]] = field(default_factory=list)
+    """the expressions whose parts of parameters alone were computed, with their keys and texts"""
 
     def add(self, path: Path, name: str, what: str, word: Word) -> None:
         require_word(path, name, self.taken, what)
@@ -116,6 +118,7 @@ class LeafScope:
         made = expression(path, text, self.words)
         if path[-2:-1] != ("variables",):  # a variable may be read in one branch alone
             evaluated(path, text, made.tree, self.parameters, whole=False)
+            self.made.append((path, text, made))
         behind = (self.variables[name].names for name in made.names & self.variables.keys())
         made = replace(made, names=made.names.union(*behind))
         self.read |= made.names & self.parameters.keys()

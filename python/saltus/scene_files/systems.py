@@ -24,7 +24,7 @@ from saltus.scene_files.wiring import DiagramPart, Part, part_of
 from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
 from saltus.system import System
 
-__all__ = ["SYSTEM_KEYS", "parameters_of", "system_of_table"]
+__all__ = ["SYSTEM_KEYS", "Systems", "parameters_of", "system_of_table", "systems_in"]
 
 DIAGRAM_KEYS = ("blocks", "wires", "inputs", "outputs", *EVENT_KEYS)
 SHARED_KEYS = ("description", "parameters", "systems")
@@ -52,13 +52,17 @@ class Count:
             )
 
 
+Systems = dict[str, tuple[Path, dict[str, Any], Any]]
+"""name -> path and table of a definition, and the definitions that its own blocks may use"""
+
+
 @dataclass(frozen=True)
 class Place:
     """The place where a system is defined: its path, and the systems that its blocks may use."""
 
     path: Path
-    systems: dict[str, tuple[Path, dict[str, Any], Any]]
-    """name -> path, table and place of each definition that is known here"""
+    systems: Systems
+    """the definitions that are known here"""
     inside: tuple[str, ...]
     """the definitions that are being made, from the outermost on"""
     count: Count
@@ -107,15 +111,20 @@ def system_of_table(
 def _with_systems(place: Place, table: dict[str, Any]) -> Place:
     path = (*place.path, "systems")
     own = table_at(path, table.get("systems", {}), "{ wheel = { states = ... } }")
-    known = dict(place.systems)
-    made = replace(place, systems=known)
     for name, inner in own.items():
         require_part_name((*path, name), name, "system")
         inner = table_at((*path, name), inner, "{ states = ... }")
         require_keys((*path, name), inner, SYSTEM_KEYS)
         require_texts((*path, name), {k: v for k, v in inner.items() if k == "description"})
-        known[name] = ((*path, name), inner, made)
-    return made
+    return replace(place, systems=systems_in(place.systems, place.path, table))
+
+
+def systems_in(known: Systems, path: Path, table: dict[str, Any]) -> Systems:
+    """The systems that blocks of a table may use: those known around it, and its own."""
+    inside = dict(known)
+    for name, inner in table.get("systems", {}).items():
+        inside[name] = ((*path, "systems", name), inner, inside)
+    return inside
 
 
 def _diagram(table: dict[str, Any], name: str, values: dict[str, Any], place: Place) -> System:
@@ -220,5 +229,5 @@ def _instance(
             known = known_names(key, list(own)) if own else "; it has none"
             raise Wrong((*path, key), f"system '{wanted}' has no parameter '{key}'{known}")
         given[key] = value_of((*path, key), value, values)
-    there = replace(home, path=at, inside=(*place.inside, label), count=place.count)
+    there = replace(place, path=at, systems=home, inside=(*place.inside, label))
     return system_of_table(inner, name, parameters_of(at, inner, given), there)
