@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from saltus.orbits import PeriodicOrbit, PeriodMap, periodic_orbit
     from saltus.orbits.period_map import period_map as period_map
     from saltus.report import WorkPrecision, work_precision
-    from saltus.viewing import view as view
+    from saltus.viewing.view import view as view
 
 __all__ = [
     "Compiled",
