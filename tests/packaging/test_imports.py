@@ -33,7 +33,6 @@ LATE = {
     ("saltus.parameter", "saltus.tracing.numbers"): "most diagrams have no parameters",
     ("saltus.ports", "saltus._evaluate"): "a system has ports, and these are evaluated with it",
     ("saltus.linearization", "saltus._step"): "step responses, which most scripts leave alone",
-    ("saltus.cli.run_scene", "saltus.scene_files.values"): "other scenes load no scene files",
     ("saltus.cli.view_scene", "saltus.drawings.of_scene"): "loads films, as other commands do not",
     ("saltus.cli.view_scene", "saltus.results.tables"): "advice for a missing library",
     ("saltus.cli.view_scene", "saltus.simulation.simulate"): "other commands run nothing",

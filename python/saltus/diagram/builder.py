@@ -10,7 +10,7 @@ from saltus.diagram.diagram import Diagram
 from saltus.diagram.event_wires import WiresEvents
 from saltus.diagram.exports import ExportsPorts
 from saltus.diagram.parts import port_in_core
-from saltus.errors import ModelError
+from saltus.errors import BuilderError, ModelError, SystemNameNotUniqueError
 from saltus.parameter import Parameter
 from saltus.system import InputPort, OutputPort, System
 
@@ -77,12 +77,26 @@ class DiagramBuilder(WiresEvents, ExportsPorts):
         >>> t = builder.add(Clock())
         >>> double, half = builder.add(Gain(2.0), Gain(0.5))
         """
+        self._require_addable(systems)
         for system in systems:
-            if not isinstance(system, System):
-                raise ModelError(f"add: expected a system, found {system!r}")
             self._core.add(system)
             self._children[system.name] = system
         return systems[0] if len(systems) == 1 else systems
+
+    def _require_addable(self, systems: tuple[System, ...]) -> None:
+        """ModelError, before any of the systems is added, for one that cannot be."""
+        known = dict(self._children)
+        for system in systems:
+            if not isinstance(system, System):
+                raise ModelError(f"add: expected a system, found {system!r}")
+            if known.get(system.name) is system:
+                raise BuilderError(f"block '{system.name}' is added twice")
+            if system.name in known:
+                raise SystemNameNotUniqueError(
+                    f"two blocks are called '{system.name}'; give each block of a diagram its own "
+                    "name"
+                )
+            known[system.name] = system
 
     def connect(self, source: OutputPort | str, destination: InputPort | str) -> None:
         """A wire from an output to an input.

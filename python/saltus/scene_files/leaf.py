@@ -57,6 +57,8 @@ class SceneLeaf(LeafSystem):
     """the equalities in its guards that depend on what its inputs are"""
     structural: dict[str, str]
     """the parameters in its equations that are in numbers of the block too, and where"""
+    path: Path
+    """the keys of its table"""
     fixed: frozenset[str]
     """the parameters in numbers of the block that are no starts of states, as a period"""
     read: frozenset[str]
@@ -94,6 +96,7 @@ class _Maker:
     def __init__(self, path: Path, table: dict[str, Any], name: str, scope: LeafScope):
         self.path, self.table, self.scope = path, table, scope
         self.leaf = SceneLeaf(name=name)
+        self.leaf.path = path
         self.leaf.shown = tuple(table.get("outputs", {}))
         self.motions = {name: ALWAYS for name in scope.states if name in scope.motions}
         self.leaf.motions = self.motions

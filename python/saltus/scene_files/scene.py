@@ -21,10 +21,11 @@ from saltus.errors import ModelError, SimulationError
 from saltus.options import atol_beside
 from saltus.results import Results
 from saltus.scene_files.followed import Followed, Structural, followed, names_in
+from saltus.scene_files.located import explained
 from saltus.scene_files.run import Run, Sweep, run_of, sweep_of
 from saltus.scene_files.source import Source, error_of
 from saltus.scene_files.systems import parameters_of, system_of_table
-from saltus.scene_files.values import entry_named, states_named
+from saltus.scene_files.values import entry_named
 from saltus.scene_files.writing import text_of
 from saltus.scene_files.wrong import Path as Keys
 from saltus.scene_files.wrong import Wrong, placed
@@ -172,8 +173,14 @@ class FileScene:
         try:
             return simulate(self.system, self.context, self._span(), self.options, **options)
         except SimulationError as error:
-            error.args = (states_named(str(error), self.system), *error.args[1:])
+            error.args = (self.explained(str(error)), *error.args[1:])
             raise
+
+    def explained(self, message: str) -> str:
+        """The message of a run of this scene that failed, with the place in the file of the
+        expression at fault.
+        """
+        return explained(message, self.system, self.tree, self._sources)
 
     @property
     def writes_atol(self) -> bool:
