@@ -179,6 +179,13 @@ class FileScene:
     def explained(self, message: str) -> str:
         """The message of a run of this scene that failed, with the place in the file of the
         expression at fault.
+
+        Examples
+        --------
+        >>> from saltus.scene_files import loads
+        >>> scene = loads("version = 1\\nstates = { x = { start = -1.0, rate = 'sqrt(x)' } }")
+        >>> scene.explained("the derivative of state x[0] of block 'scene' jumps")
+        "the derivative of state 'x' of block 'scene' jumps (<text>:2:40: states.x.rate)"
         """
         return explained(message, self.system, self.tree, self._sources)
 
@@ -256,6 +263,20 @@ class FileScene:
     def following(self, own: frozenset[str]) -> Columns | None:
         """Gives the values of a context that follow from these parameters of the scene; None if the
         parameters reach more than that: the structure of the system, or the settings of the run.
+
+        Examples
+        --------
+        >>> from saltus.scene_files import loads
+        >>> scene = loads('''
+        ... version = 1
+        ... parameters = { k = 2.0, T = 1.0 }
+        ... states = { x = { start = "k / 4", rate = "-k * x" } }
+        ... updates = { tick = { period = "T", set = { x = 1.0 } } }
+        ... ''')
+        >>> scene.following(frozenset(["k"])).row({"k": 8.0})
+        {'k': array(8.), 'x': array(2.)}
+        >>> scene.following(frozenset(["T"])) is None
+        True
         """
         try:
             values = followed(self.tree, self.system, own)
