@@ -6,19 +6,17 @@ runs it.
 
 from typing import TYPE_CHECKING, Any
 
+from saltus import _starting  # isort: skip  # before the imports that Ctrl-C may interrupt
 from saltus import library, simulation
 from saltus._core import Context, State, __version__
 from saltus._core import known_names as _known_names
 from saltus.callbacks import ExplainedCallback, Explanation
 from saltus.compiled import Compiled, compiled
 from saltus.diagram import Diagram, DiagramBuilder
-from saltus.ensemble import sweep
 from saltus.errors import Error, ModelError, SimulationError
 from saltus.leaf_system import LeafSystem
-from saltus.linearization import Linearization, linearize
 from saltus.parameter import Parameter
 from saltus.progress import Progress
-from saltus.report import WorkPrecision, work_precision
 from saltus.response import response
 from saltus.results import Event, EventLog, Results, Statistics, Values, load_results
 from saltus.results import load_results as load
@@ -37,17 +35,20 @@ if TYPE_CHECKING:
     from saltus.differentiable import RunValues
     from saltus.differentiable.jax_function import jax_function as jax_function
     from saltus.differentiable.torch_function import torch_function as torch_function
+    from saltus.ensemble import sweep as sweep
     from saltus.ensemble.heat_map import plot_sweep as plot_sweep
     from saltus.exponents import LyapunovSpectrum
     from saltus.exponents.lyapunov import lyapunov as lyapunov
     from saltus.fitting import EventTimes, Experiment, FitProgress, FitResult, Free
     from saltus.fitting.fit import fit as fit
+    from saltus.linearization import Linearization, linearize
     from saltus.operating import Equilibria, OperatingPoint
     from saltus.operating.equilibria import equilibria as equilibria
     from saltus.operating.trim import trim as trim
     from saltus.orbits import PeriodicOrbit, PeriodMap, periodic_orbit
     from saltus.orbits.period_map import period_map as period_map
-    from saltus.viewing import view as view
+    from saltus.report import WorkPrecision, work_precision
+    from saltus.viewing.view import view as view
 
 __all__ = [
     "Compiled",
@@ -131,8 +132,11 @@ _LATER = {
     **dict.fromkeys(("Equilibria", "OperatingPoint", "equilibria", "trim"), "operating"),
     **dict.fromkeys(("PeriodMap", "PeriodicOrbit", "period_map", "periodic_orbit"), "orbits"),
     **dict.fromkeys(("WrongDerivative", "check_derivatives"), "derivative_checks"),
+    **dict.fromkeys(("Linearization", "linearize"), "linearization"),
+    **dict.fromkeys(("WorkPrecision", "work_precision"), "report"),
     "drawings": "drawings",
     "plot_sweep": "ensemble.heat_map",
+    "sweep": "ensemble",
     "view": "viewing",
 }
 """names that most scripts leave alone -> their package, loaded when they are used; its own name is
@@ -164,3 +168,6 @@ def _missing(name: str) -> AttributeError:
 
 def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
+
+
+_starting.end()

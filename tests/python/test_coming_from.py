@@ -56,3 +56,16 @@ def test_each_name_in_the_table_exists(page):
     names = set(names_in(page))
     assert len(names) > 10
     assert names - known() == set()
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("declare_cache", "block 'tank': there is no cache; call a method of the block"),
+        ("declare_static_parameter", "there are no static parameters; set an attribute"),
+        ("declare_static_parameters", "there are no static parameters; set an attribute"),
+    ],
+)
+def test_a_declaration_that_is_not_here_is_refused_with_the_remedy(name, words):
+    with pytest.raises(saltus.ModelError, match=words):
+        getattr(saltus.LeafSystem(name="tank"), name)(lambda time, state: 1.0, name="flow")

@@ -169,3 +169,23 @@ def test_a_refused_context_leaves_the_simulator_as_it_was():
         simulator.initialize(parameter_block("a", "spring").create_context())
     assert simulator.context == before
     assert simulator.advance_to(1.0) == "reached_end"
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"a": 2.0, "zz": 3.0},
+        {"zz": 3.0, "a": 2.0},
+        {"a": 2.0, "b": "x"},
+        {"a": 2.0, "b": [1.0, 2.0]},
+        {"a": 2.0, "b": float("nan")},
+    ],
+)
+def test_with_parameters_changes_all_or_none(values):
+    leaf = saltus.LeafSystem(name="leaf")
+    for name in "abc":
+        leaf.declare_dynamic_parameter(name, 1.0)
+    context = leaf.create_context()
+    with pytest.raises(saltus.ModelError):
+        context.with_parameters(values)
+    assert context.parameters == {"a": 1.0, "b": 1.0, "c": 1.0}

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import saltus
-from saltus.library import Adder, Constant, Gain, Integrator
+from saltus.library import Adder, Clock, Constant, Gain, Integrator
 from systems import Ball
 
 
@@ -121,3 +121,23 @@ def test_one_block_in_two_diagrams():
         for d, h in zip(diagrams, (10.0, 20.0), strict=True)
     ]
     assert ends[1] - ends[0] == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize(
+    ("second", "words"),
+    [
+        (lambda first: Gain(2.0, name="g"), "two blocks are called 'g'"),
+        (lambda first: first, "'g' is added twice"),
+        (lambda first: 3.0, "expected a system, found 3.0"),
+    ],
+)
+def test_add_of_several_adds_all_or_none(second, words):
+    first, builder = Gain(1.0, name="g"), saltus.DiagramBuilder()
+    with pytest.raises(saltus.ModelError, match=words):
+        builder.add(first, second(first))
+    builder.add(first)  # none of them was added
+    with pytest.raises(saltus.ModelError, match="is added twice"):
+        builder.add(Clock(name="clock"), first)
+    clock = builder.add(Clock(name="clock"))
+    builder.connect(clock.output(), first.input())
+    assert [block.name for block in builder.build().blocks] == ["g", "clock"]

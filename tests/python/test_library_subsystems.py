@@ -505,3 +505,10 @@ def test_an_update_at_the_tick_at_which_the_outer_part_changes(of_inner, values,
     builder.export_output(outer.output("y"), "y")
     results = saltus.simulate(builder.build(), (0.0, 1.25))
     assert np.ravel(results["y"])[-1] == updates
+
+
+@pytest.mark.parametrize("block", [EnabledSubsystem, TriggeredSubsystem])
+@pytest.mark.parametrize("system", [2.0, "plant", None, saltus.LeafSystem])
+def test_what_is_executed_is_a_system(block, system):
+    with pytest.raises(saltus.ModelError, match="expected the system that it executes"):
+        block(system)

@@ -74,11 +74,7 @@ def act(chosen: argparse.Namespace) -> int:
 def _reason(results: Results, scene: Chosen) -> str:
     """The message of the run; it begins with the exception of a user's function."""
     message = results.message or "no reason is known"
-    if scene.file is None:
-        return message
-    from saltus.scene_files.values import states_named
-
-    return states_named(message, scene.system)
+    return message if scene.made is None else scene.made.explained(message)
 
 
 def _recording(

@@ -24,7 +24,7 @@ from saltus.system import System
 if TYPE_CHECKING:
     from saltus.scene_files import FileScene
 
-__all__ = ["Chosen", "chosen_scene"]
+__all__ = ["Chosen", "chosen_scene", "with_values"]
 
 
 OTHER_TEXTS = {".txt", ".yaml", ".yml", ".tml", ".ini", ".cfg", ".mo", ".slx"}
@@ -51,6 +51,8 @@ class Chosen:
     """whether these values belong together, row by row"""
     file: FileScene | None = None
     """the scene file that was read"""
+    made: FileScene | None = None
+    """the scene of the file, with the settings"""
 
     @property
     def writes_atol(self) -> bool:
@@ -118,7 +120,7 @@ def _of_shelf(name: str, settings: dict[str, Any]) -> Chosen:
     known = set(usual.parameters)
     own, rest = _split(settings, known)
     made = scene(name, **own) if known else usual
-    context = _with_values(made.context, rest, known)
+    context = with_values(made.context, rest, known)
     same = made if not rest else None
     return Chosen(
         name,
@@ -142,7 +144,7 @@ def _of_file(file: FileScene, settings: dict[str, Any]) -> Chosen:
         if entry in values:
             raise ModelError(f"'{entry}' and '{name}' are the same value; leave one of them out")
         values[entry] = value
-    context = _with_values(scene.context, values, known)
+    context = with_values(scene.context, values, known)
     return Chosen(
         scene.name,
         scene.title,
@@ -155,6 +157,7 @@ def _of_file(file: FileScene, settings: dict[str, Any]) -> Chosen:
         scene.swept.values,
         scene.swept.paired,
         file,
+        scene,
     )
 
 
@@ -189,7 +192,7 @@ def _own(name: str, settings: dict[str, Any]) -> Chosen:
     if not options.recorded_signals:
         ports = {port.name: port for port in system.output_ports}
         options = replace(options, recorded_signals=ports)
-    context = _with_values(context, rest, arguments)
+    context = with_values(context, rest, arguments)
     return Chosen(name, system.name, system, context, span, options, None)
 
 
@@ -266,7 +269,7 @@ def _made(make: Callable[..., Any], arguments: dict[str, Any], name: str) -> Any
         raise ModelError(f"'{name}': {_where(error, name.rpartition(':')[0])}") from error
 
 
-def _with_values(context: _core.Context, values: dict[str, Any], more: set[str]) -> _core.Context:
+def with_values(context: _core.Context, values: dict[str, Any], more: set[str]) -> _core.Context:
     """The context with parameters and initial states in place of the usual ones."""
     for name, value in values.items():
         try:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from saltus._entries import entries, entry_names
 from saltus._signals import port_of
 from saltus._span import rows_within
 from saltus._status import WELL
+from saltus.cli.one_system import OneSystem
 from saltus.cli.scene_of import Chosen, chosen_scene
 from saltus.ensemble.columns import STATUS, Columns, empty, failed
 from saltus.ensemble.dataset import refuse_reserved
@@ -31,8 +32,9 @@ __all__ = ["SceneRuns"]
 
 @dataclass(frozen=True)
 class SceneRuns:
-    """A scene that is made anew for each row of values, so that a row may vary anything that
-    `--set` may set: parameters, arguments of a function, values of the context.
+    """A scene that is made for each row of values, so that a row may vary anything that `--set` may
+    set: parameters, arguments of a function, values of the context. Rows of a scene file that
+    differ in values of the context alone share one system.
     """
 
     scene: str
@@ -42,6 +44,8 @@ class SceneRuns:
     span: tuple[float | None, float | None]
     record: tuple[str, ...]
     options: dict[str, Any]
+    one: OneSystem = field(default_factory=OneSystem, repr=False, compare=False)
+    """the system of rows that differ in values of a context alone"""
 
     @property
     def is_factory(self) -> bool:
@@ -53,7 +57,11 @@ class SceneRuns:
 
     def chosen(self, row: Mapping[str, Any]) -> Chosen:
         """The scene with the values of one row. ModelError for unknown names."""
-        return chosen_scene(self.scene, self.settings | dict(row), self.file).with_span(*self.span)
+        scene = None
+        if self.file is not None:
+            scene = self.one.of(self.scene, self.file, self.settings, row)
+        scene = scene or chosen_scene(self.scene, self.settings | dict(row), self.file)
+        return scene.with_span(*self.span)
 
     def check(self, row: Mapping[str, Any]) -> None:
         """Raises ModelError for unknown names, signals and options, and for a column that would be

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,9 +22,18 @@ from saltus.options import SimulatorOptions
 from saltus.results import Results
 from saltus.system import OutputPort, System
 
-__all__ = ["Job"]
+__all__ = ["Following", "Job"]
 
 Values = Mapping[str, Column]
+
+
+class Following(NamedTuple):
+    """One system, whose values follow from others, such as the parameters of a scene file. It takes
+    the place of the system in `sweep`.
+    """
+
+    system: System
+    follow: Callable[[Values], Values]
 
 
 @dataclass(frozen=True)
@@ -37,6 +46,8 @@ class Job:
     options: SimulatorOptions
     signals: Mapping[str, OutputPort | str]
     reduce: Callable[[Results], Any] | None
+    follow: Callable[[Values], Values] | None = None
+    """gives the values of a context that follow from those of the sweep; None: they are the same"""
 
     @property
     def is_factory(self) -> bool:
@@ -76,6 +87,7 @@ class Job:
             return _core.Ensemble(system, begin, self.span, options, callbacks, when)
 
         ensemble = planned(system, plan)[0] if self.options.python == "traced" else plan(None)
+        values = values if self.follow is None else self.follow(values)
         for name, column in values.items():
             ensemble.vary(name, _numbers(name, column))
         return ensemble

@@ -21,7 +21,7 @@ from saltus.ensemble.dataset import (
     xarray,
 )
 from saltus.ensemble.executors import run, store_of
-from saltus.ensemble.job import Job
+from saltus.ensemble.job import Following, Job
 from saltus.ensemble.progress import Progress
 from saltus.ensemble.table import table_of
 from saltus.errors import ModelError
@@ -148,7 +148,9 @@ def sweep(
     (('e', 'x[0]'), [[7, 2], [2, 1], [2, 1]])
     """
     table = table_of(values, paired)
+    system, follow = system if isinstance(system, Following) else (system, None)
     job = _job(system, t_span, options, recorded_signals, context, reduce, option_overrides)
+    job = replace(job, follow=follow)
     refuse_reserved(table.columns, job.signals)
     if not as_dict:
         xarray()

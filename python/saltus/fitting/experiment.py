@@ -58,6 +58,11 @@ class EventTimes:
         if np.any(np.diff(times[np.isfinite(times)]) < 0.0):
             raise ModelError("event times: expected increasing times; sort them")
         object.__setattr__(self, "times", times)
+        deviations = _array("event times: sigma", 1.0 if self.sigma is None else self.sigma)
+        if (deviations <= 0.0).any() or (deviations.ndim == 0 and np.isnan(deviations)):
+            raise ModelError(
+                f"event times: sigma: expected standard deviations above 0 s, found {self.sigma!r}"
+            )
 
 
 @dataclass(frozen=True)

@@ -38,8 +38,7 @@ def columns_of(where: str, data: Any) -> Columns:
     if "time" not in signals and signals:
         raise ModelError(f"{where}: the data have no 'time'; {EXPECTED}")
     time = _numbers(f"{where}: 'time'", signals.pop("time", []))
-    if time.ndim != 1 or not np.isfinite(time).all():
-        raise ModelError(f"{where}: 'time': expected a list of finite times [s]")
+    _require_times(where, time)
     jump = signals.pop("jump", None)
     columns = {name: _column(where, name, values, time) for name, values in signals.items()}
     if not columns and not events:
@@ -47,6 +46,23 @@ def columns_of(where: str, data: Any) -> Columns:
     if jump is not None:
         time, columns = _after_events(time, np.asarray(jump), columns)
     return Columns(time, columns, events)
+
+
+def _require_times(where: str, time: np.ndarray) -> None:
+    what = f"{where}: 'time': expected a list of finite times [s]"
+    if time.ndim != 1:
+        raise ModelError(f"{what}, found the shape {time.shape}")
+    wrong = np.flatnonzero(~np.isfinite(time))
+    if len(wrong):
+        raise ModelError(
+            f"{what}, found {time[wrong[0]]} in row {wrong[0]}"
+            f"{_more(len(wrong))}; leave the row out. A value without a time cannot count; nan is a "
+            "missing value in the other columns"
+        )
+
+
+def _more(count: int) -> str:
+    return "" if count == 1 else f" and in {count - 1} more"
 
 
 def _mapping(where: str, data: Any) -> dict[Any, Any]:
@@ -114,6 +130,8 @@ def _numbers(what: str, values: Any) -> np.ndarray:
 def sigma_of(where: str, sigma: Any, name: str, column: np.ndarray) -> np.ndarray:
     """The standard deviation of each value of a column, 1 if none is given."""
     given = sigma.get(name) if isinstance(sigma, Mapping) else sigma
+    if isinstance(given, (bool, np.bool_)):
+        raise ModelError(f"{where}: sigma of '{name}': expected a number, found {given}")
     values = _numbers(f"{where}: sigma of '{name}'", 1.0 if given is None else given)
     if values.ndim == 1 and column.ndim == 2 and len(values) == len(column) != column.shape[1]:
         values = values[:, None]
@@ -124,10 +142,11 @@ def sigma_of(where: str, sigma: Any, name: str, column: np.ndarray) -> np.ndarra
             f"{where}: sigma of '{name}': expected a number or the shape {column.shape} of the "
             f"data, found the shape {values.shape}"
         ) from None
-    used = full[np.isfinite(column)]
-    if not (np.isfinite(used).all() and (used > 0.0).all()):
+    wrong = np.isfinite(column) & ~(np.isfinite(full) & (full > 0.0))
+    if wrong.any():
+        at = "" if values.ndim == 0 else f" in row {np.argwhere(wrong)[0][0]}"
         raise ModelError(
-            f"{where}: sigma of '{name}': expected standard deviations above 0; a value that "
-            "should not count is nan in the data"
+            f"{where}: sigma of '{name}': expected finite standard deviations above 0, found "
+            f"{full[wrong][0]:g}{at}; a value that should not count is nan in the data"
         )
     return full

@@ -19,6 +19,7 @@ from saltus.fitting.observed import (
     refuse_unknown_sigma,
     series,
 )
+from saltus.fitting.step_bound import StepBound
 from saltus.fitting.tables import sigma_of
 from saltus.options import SimulatorOptions
 from saltus.results import Results
@@ -77,7 +78,9 @@ class Trial:
             dense_output=False,
             throw=True,
             progress=False,
+            interrupt=(limit := StepBound(options.interrupt)),
         )
+        self._limit, self._given = limit, options.interrupt
         self.without_sigma: list[str] = []
         self._plain: Simulator | None = None
         self._simulator = self._first_simulator()
@@ -166,10 +169,13 @@ class Trial:
         return Evaluation(model, np.concatenate([part.derivatives for part in parts]), ())
 
     def _run(self, simulator: Simulator, values: Values) -> Results:
+        self._limit.begin()
         try:
             simulator.initialize(self.start(values))
             status = simulator.advance_to(self.bound.span[1])
         except Exception as error:  # a callback may raise anything at a value that makes no sense
+            if self._limit.reached:
+                raise RunFailed(self._limit.message, getattr(error, "results", None)) from error
             raise _failure(error) from error
         results = simulator.results
         if status not in WELL or len(results.time) < len(self._times):
@@ -178,6 +184,7 @@ class Trial:
                 f"time of the data, {self._times[-1]:g} s",
                 results,
             )
+        self._limit.well()
         return results
 
     def show(self, values: Values) -> Results:
@@ -190,6 +197,7 @@ class Trial:
             record_events=True,
             dense_output=True,
             throw=False,
+            interrupt=self._given,
         )
         return simulate(self.system, self.start(values), self.bound.span, options)
 

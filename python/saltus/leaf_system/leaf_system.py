@@ -7,6 +7,7 @@ from saltus._porting import refusing
 from saltus.leaf_system.event_inputs import DeclaresEventInputs
 from saltus.leaf_system.guards import DeclaresGuards
 from saltus.leaf_system.ports import DeclaresPorts
+from saltus.leaf_system.refused import RefusesDeclarations
 from saltus.leaf_system.times import DeclaresTimes
 from saltus.leaf_system.values import DeclaresValues
 from saltus.system import System
@@ -15,7 +16,13 @@ __all__ = ["LeafSystem"]
 
 
 class LeafSystem(
-    System, DeclaresValues, DeclaresPorts, DeclaresGuards, DeclaresTimes, DeclaresEventInputs
+    System,
+    DeclaresValues,
+    DeclaresPorts,
+    DeclaresGuards,
+    DeclaresTimes,
+    DeclaresEventInputs,
+    RefusesDeclarations,
 ):
     """A block with equations of its own. Call `super().__init__(name=...)`, then declare.
 

@@ -105,6 +105,11 @@ class _Subsystem(Diagram):
         output: dict[str, str],
     ) -> None:
         name = name or _core.next_name(type(self).__name__)
+        if not isinstance(system, System):
+            raise BlockParameterError(
+                f"block '{name}': expected the system that it executes, a block or a diagram, "
+                f"found {system!r}"
+            )
         initial = dict(initial_outputs or {})
         for known in initial:
             if known not in system.output_names:

@@ -9,7 +9,7 @@ from typing import Any
 from saltus.leaf_system import LeafSystem
 from saltus.scene_files.expression import Expression, template
 from saltus.scene_files.functions import list_of, number_of
-from saltus.scene_files.leaf_scope import LeafScope
+from saltus.scene_files.leaf_scope import WEIGHT, LeafScope
 from saltus.scene_files.moving import ALWAYS, NEVER, Doubt, Motions
 from saltus.scene_files.names import (
     chosen,
@@ -25,13 +25,14 @@ __all__ = ["LEAF_KEYS", "SceneLeaf", "leaf_of"]
 
 LEAF_KEYS = (
     "states", "discrete", "modes", "mode", "inputs", "variables", "outputs", "guards", "edges",
-    "updates",
+    "updates", "event_inputs",
 )  # fmt: skip
 GUARD_KEYS = (
     "guard", "direction", "from", "to", "set", "terminal", "max_count", "zeno_tolerance",
     "at_start", "on_zeno", "delay", "priority", "persistent", "initial_value",
     "use_values_from_trigger_time",
 )  # fmt: skip
+TABLES = tuple(key for key in LEAF_KEYS if key not in ("modes", "mode", "inputs"))
 QUEUE_TRUTHS = ("persistent", "initial_value", "use_values_from_trigger_time")
 UPDATE_KEYS = ("period", "offset", "at", "end", "count", "set")
 DIRECTIONS = (
@@ -56,17 +57,33 @@ class SceneLeaf(LeafSystem):
     """the equalities in its guards that depend on what its inputs are"""
     structural: dict[str, str]
     """the parameters in its equations that are in numbers of the block too, and where"""
+    path: Path
+    """the keys of its table"""
+    fixed: frozenset[str]
+    """the parameters in numbers of the block that are no starts of states, as a period"""
+    read: frozenset[str]
+    """the parameters in its equations"""
+    expressions: list[tuple[Path, Any, Expression]]
+    """the expressions of its equations, with their keys and texts"""
+    state_names: list[str]
+    """the names of the continuous states in a context; none if they are `x[0]`, ... there"""
+    starts: list[tuple[Path, Any]]
+    """the starts of the continuous states: keys and texts"""
+    held_starts: list[tuple[Path, Any]]
+    """the starts of the discrete states: keys and texts"""
     states: tuple[str, ...]
     """the names of the continuous states"""
     held: dict[str, int]
     """the discrete states, by name, and their positions"""
+    held_outputs: tuple[str, ...] = ()
+    """the outputs that show a discrete state or the mode, and that the file does not name"""
     last: list[tuple[Path, float]]
     """[s] the last time of each of its updates that ends, and the key that says it"""
 
 
 def leaf_of(path: Path, table: dict[str, Any], name: str, parameters: dict[str, Any]) -> SceneLeaf:
     """The system of a table. Wrong for a mistake in it."""
-    for key in ("states", "discrete", "variables", "outputs", "guards", "edges", "updates"):
+    for key in TABLES:
         table_at((*path, key), table.get(key, {}), "{ name = ... }")
     scope = LeafScope(parameters=parameters)
     scope.add_table(path, table)
@@ -79,12 +96,14 @@ class _Maker:
     def __init__(self, path: Path, table: dict[str, Any], name: str, scope: LeafScope):
         self.path, self.table, self.scope = path, table, scope
         self.leaf = SceneLeaf(name=name)
+        self.leaf.path = path
         self.leaf.shown = tuple(table.get("outputs", {}))
         self.motions = {name: ALWAYS for name in scope.states if name in scope.motions}
         self.leaf.motions = self.motions
         self.leaf.held = {name: i for i, name in enumerate(scope.discrete)}
         self.leaf.last, self.leaf.states = [], tuple(scope.states)
         self.structural: dict[str, str] = {}
+        self.started: dict[str, str] = {}
 
     def declare(self) -> None:
         for name, size in self.scope.inputs.items():
@@ -97,38 +116,49 @@ class _Maker:
             ("guards", self.guard),
             ("edges", self.edge),
             ("updates", self.update),
+            ("event_inputs", self.event_input),
         ):
             for name, value in self.table.get(what, {}).items():
                 path = (*self.path, what, name)
-                require_part_name(path, name, what[:-1])
+                require_part_name(path, name, what[:-1].replace("_", " "))
                 with placed(path):
                     declare(path, name, value)
+        self.held_outputs()
         for name, value in self.scope.parameters.items():
             if name in self.scope.read:
                 with placed((*self.path, "parameters", name)):
                     self.leaf.declare_dynamic_parameter(name, value)
         read = self.scope.read
-        self.leaf.structural = {name: key for name, key in self.structural.items() if name in read}
+        keys = self.started | self.structural
+        self.leaf.structural = {name: key for name, key in keys.items() if name in read}
+        self.leaf.fixed, self.leaf.read = frozenset(self.structural), frozenset(read)
+        self.leaf.expressions = self.scope.made
 
     def states(self) -> None:
-        starts, rates = [], []
+        starts: list[tuple[Path, Any]] = []
+        rates = []
         for name, value in self.table.get("states", {}).items():
             path = (*self.path, "states", name)
             value = table_at(path, value, "{ start = 1.0, rate = '-k * x' }")
             require_keys(path, value, ("start", "rate", "unit", "description"))
             require_texts(path, value)
-            starts.append(self.number((*path, "start"), value.get("start", 0.0)))
+            starts.append(((*path, "start"), value.get("start", 0.0)))
             rates.append(self.scope.expression((*path, "rate"), value.get("rate", 0.0)))
+        self.leaf.starts, self.leaf.state_names = starts, []
         if starts:
             inputs = self.scope.inputs_of(rates)
             ode = self.scope.function(list_of(rates), inputs, rates)
+            self.leaf.state_names = self.state_names()
+            numbers = [self.start(*each) for each in starts]
             with placed((*self.path, "states")):
                 self.leaf.declare_continuous_state(
-                    starts, ode=ode, requires_inputs=inputs, names=self.state_names()
+                    numbers, ode=ode, requires_inputs=inputs, names=self.leaf.state_names
                 )
-        held = self.table.get("discrete", {})
+        path = (*self.path, "discrete")
+        held = [((*path, name), value) for name, value in self.table.get("discrete", {}).items()]
+        self.leaf.held_starts = held
         if held:
-            values = [self.number((*self.path, "discrete", n), v) for n, v in held.items()]
+            values = [self.start(*each) for each in held]
             with placed((*self.path, "discrete")):
                 self.leaf.declare_discrete_state(values)
 
@@ -152,6 +182,9 @@ class _Maker:
     def mode(self, path: Path, value: Any) -> int:
         return self.scope.modes.index(chosen(path, value, self.scope.modes, "mode"))
 
+    def start(self, path: Path, value: Any) -> float:
+        return number_of(path, value, self.scope.parameters, self.started)
+
     def number(self, path: Path, value: Any) -> float:
         return number_of(path, value, self.scope.parameters, self.structural)
 
@@ -172,6 +205,28 @@ class _Maker:
             boolean=not many and parts[0].boolean,
             reads=self.scope.rates_of(parts),
         )
+
+    def held_outputs(self) -> None:
+        """The outputs that show a discrete state, the mode, and whether it is that of a name, for
+        whoever records them. An output of the file with such a name stays what it is.
+        """
+        shown = set(self.leaf.output_names)
+        held = [(name, name, "discrete_state", False) for name in self.scope.discrete]
+        held += [(name, f"mode == {name}", "mode", True) for name in self.scope.modes]
+        for name, text, read, truth in held:
+            if name not in shown:
+                made = self.scope.expression((*self.path, name), text)
+                self.leaf.declare_output_port(
+                    self.scope.function(made.tree, (), [made]),
+                    name=name,
+                    requires_inputs=(),
+                    shape=(),
+                    boolean=truth,
+                    reads=[read],
+                )
+        if self.scope.modes and "mode" not in shown:
+            self.leaf.declare_mode_output("mode")
+        self.leaf.held_outputs = tuple(n for n in self.leaf.output_names if n not in shown)
 
     def guard(self, path: Path, name: str, value: Any) -> None:
         value = table_at(path, value, "{ guard = 'y', direction = 'falling' }")
@@ -243,6 +298,16 @@ class _Maker:
             edge=value.get("edge", "rising"),
             name=name,
             requires_inputs=inputs,
+        )
+
+    def event_input(self, path: Path, name: str, value: Any) -> None:
+        value = table_at(path, value, "{ set = { v = 'v + weight' } }")
+        require_keys(path, value, ("set",), ("set",))
+        with self.scope.with_weight(path):
+            effect, read = self.effect(path, value)
+        inputs = self.scope.inputs_of(read)
+        self.leaf.declare_event_input(
+            self.scope.function(effect, inputs, read, (WEIGHT,)), name=name, requires_inputs=inputs
         )
 
     def update(self, path: Path, name: str, value: Any) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -21,7 +22,10 @@ from saltus.scene_files.names import named_vector, require_word
 from saltus.scene_files.vocabulary import ON_ZENO
 from saltus.scene_files.wrong import Path, Wrong, found
 
-__all__ = ["LeafScope"]
+__all__ = ["WEIGHT", "LeafScope"]
+
+WEIGHT = "weight"
+"""the word for the weight of an event wire"""
 
 
 @dataclass
@@ -41,6 +45,8 @@ class LeafScope:
     """the parameters that some expression reads"""
     motions: dict[str, frozenset[str]] = field(default_factory=dict)
     """what moves each name between events"""
+    made: list[tuple[Path, Any, Expression]] = field(default_factory=list)
+    """the expressions whose parts of parameters alone were computed, with their keys and texts"""
 
     def add(self, path: Path, name: str, what: str, word: Word) -> None:
         require_word(path, name, self.taken, what)
@@ -112,6 +118,7 @@ class LeafScope:
         made = expression(path, text, self.words)
         if path[-2:-1] != ("variables",):  # a variable may be read in one branch alone
             evaluated(path, text, made.tree, self.parameters, whole=False)
+            self.made.append((path, text, made))
         behind = (self.variables[name].names for name in made.names & self.variables.keys())
         made = replace(made, names=made.names.union(*behind))
         self.read |= made.names & self.parameters.keys()
@@ -122,12 +129,35 @@ class LeafScope:
         names = frozenset().union(*(each.names for each in expressions))
         return [i for i, name in enumerate(self.inputs) if name in names]
 
-    def function(self, body: Any, inputs: Sequence[int], read: Iterable[Expression]) -> Any:
-        """A callback with these inputs that returns `body`, which is made of expressions."""
+    @contextmanager
+    def with_weight(self, path: Path) -> Iterator[None]:
+        """Inside of it expressions read `weight`, that of the event wire of a delivery. Wrong if
+        the leaf gives the name another meaning.
+        """
+        if WEIGHT in self.taken:
+            raise Wrong(
+                path,
+                f"'{WEIGHT}' is that of the event wire in 'event_inputs'; choose another name for "
+                f"the {self.taken[WEIGHT]} '{WEIGHT}'",
+            )
+        self.words[WEIGHT] = Word(WEIGHT)
+        yield
+        del self.words[WEIGHT]
+
+    def function(
+        self,
+        body: Any,
+        inputs: Sequence[int],
+        read: Iterable[Expression],
+        more: Sequence[str] = (),
+    ) -> Any:
+        """A callback with these inputs, and `more` arguments after them, that returns `body`,
+        which is made of expressions.
+        """
         names = list(self.inputs)
         needed = frozenset().union(*(each.names for each in read))
         before = [(f"v_{n}", each.tree) for n, each in self.variables.items() if n in needed]
-        arguments = ["time", "state", *(f"u_{names[i]}" for i in inputs)]
+        arguments = ["time", "state", *(f"u_{names[i]}" for i in inputs), *more]
         return function_of(arguments, body, "p", before)
 
     def rates_of(self, expressions: Iterable[Expression]) -> list[str]:

@@ -104,8 +104,9 @@ def named_path(path: Path, text: str, blocks: Mapping[str, Any], what: str) -> s
         raise Wrong(path, f"unknown block '{block}'{known_names(block, list(blocks))}")
     if dot:
         return f"{block}.{port}"
-    kind = what.removesuffix("s")
-    ports = getattr(blocks[block], f"{kind}_names")
+    kind = what.removesuffix("s").replace(" ", "_")
+    held = getattr(blocks[block], "held_outputs", ()) if kind == "output" else ()
+    ports = [name for name in getattr(blocks[block], f"{kind}_names") if name not in held]
     if len(ports) != 1:
         listed = ", ".join(f"'{block}.{name}'" for name in ports) or "none"
         raise Wrong(path, f"block '{block}' has {len(ports)} {what}; say which: {listed}")

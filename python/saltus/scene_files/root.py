@@ -11,7 +11,7 @@ from saltus.scene_files.wrong import Wrong, found, require_keys
 __all__ = ["ROOT_KEYS", "VERSION", "require_root"]
 
 VERSION = 1
-LISTS = {"wires", "modes", "inputs"}
+LISTS = {"wires", "modes", "inputs", "event_wires"}
 ROOT_KEYS = {"version", "name", "title", "include", "run", "sweep", "$schema"}
 
 
@@ -29,7 +29,9 @@ def require_root(tree: dict[str, Any]) -> None:
                             "$schema"))  # fmt: skip
     for key, table in tree.items():
         for name in LISTS & table.keys() if isinstance(table, dict) else ():
-            if isinstance(table[name], list) and all(isinstance(t, str) for t in table[name]):
+            if isinstance(table[name], list) and all(
+                isinstance(t, (str, dict)) for t in table[name]
+            ):
                 raise Wrong(
                     (key, name),
                     f"'{name}' belongs to the whole scene; in TOML a key below a [header] is one "

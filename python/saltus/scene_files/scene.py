@@ -4,22 +4,28 @@ from __future__ import annotations
 
 import copy
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from saltus import _core
 from saltus._porting import missing
 from saltus._signals import blocks_in
+from saltus.ensemble.job import Following
 from saltus.ensemble.sweep import sweep
+from saltus.ensemble.table import Column, entry, table_of
 from saltus.errors import ModelError, SimulationError
 from saltus.options import atol_beside
 from saltus.results import Results
+from saltus.scene_files.followed import Followed, Structural, followed, names_in
+from saltus.scene_files.located import explained
 from saltus.scene_files.run import Run, Sweep, run_of, sweep_of
 from saltus.scene_files.source import Source, error_of
 from saltus.scene_files.systems import parameters_of, system_of_table
-from saltus.scene_files.values import entry_named, states_named
+from saltus.scene_files.values import entry_named
 from saltus.scene_files.writing import text_of
 from saltus.scene_files.wrong import Path as Keys
 from saltus.scene_files.wrong import Wrong, placed
@@ -167,8 +173,21 @@ class FileScene:
         try:
             return simulate(self.system, self.context, self._span(), self.options, **options)
         except SimulationError as error:
-            error.args = (states_named(str(error), self.system), *error.args[1:])
+            error.args = (self.explained(str(error)), *error.args[1:])
             raise
+
+    def explained(self, message: str) -> str:
+        """The message of a run of this scene that failed, with the place in the file of the
+        expression at fault.
+
+        Examples
+        --------
+        >>> from saltus.scene_files import loads
+        >>> scene = loads("version = 1\\nstates = { x = { start = -1.0, rate = 'sqrt(x)' } }")
+        >>> scene.explained("the derivative of state x[0] of block 'scene' jumps")
+        "the derivative of state 'x' of block 'scene' jumps (<text>:2:40: states.x.rate)"
+        """
+        return explained(message, self.system, self.tree, self._sources)
 
     @property
     def writes_atol(self) -> bool:
@@ -211,15 +230,61 @@ class FileScene:
                 raise ModelError(f"scene '{self.name}' says nothing to vary; write a table 'sweep'")
             values, how = self.swept.values, {"paired": self.swept.paired} | how
         values = _renamed(values, self.entry_named)
-        # a system cannot be sent to another process, but the function that makes it can
-        made_again = how.get("executor") == "processes" or any(
-            name in self.parameters for name in _names(values)
-        )
+        system: Any = self.system
+        own = self.parameters.keys() & _names(values)
+        if how.get("executor") == "processes":  # a function that makes a system can be sent there
+            system = self.maker()
+        elif own:
+            system = self._following(values, frozenset(own), how) or self.maker()
         signals = {name: _path_in(self, name) for name in self.options.recorded_signals or {}}
         options = replace(self.options, recorded_signals=None)
-        system = self.maker() if made_again else self.system
         how = {"recorded_signals": signals} | self._with_atol(how)
         return sweep(system, values, self._span(), options=options, **how)
+
+    def _following(
+        self, values: Any, own: frozenset[str], how: Mapping[str, Any]
+    ) -> Following | None:
+        """The system with the values that follow from parameters of the scene; None if each run
+        needs a system of its own, also because the file does not allow one of the values.
+        """
+        if how.get("store") is not None:  # what a store holds is named by the function
+            return None
+        try:
+            follow = Columns(self.tree, followed(self.tree, self.system, own), own)
+            columns = table_of(values, bool(how.get("paired"))).columns
+            states = follow(columns).keys() - columns.keys() - self.context.parameters.keys()
+        except (Structural, Wrong, ModelError, TypeError, ValueError):
+            return None
+        given = columns.keys() - own - self.context.parameters.keys()
+        if _share(states, given):
+            return None  # two names of one state, of which that of the block wins
+        return Following(self.system, follow)
+
+    def following(self, own: frozenset[str]) -> Columns | None:
+        """Gives the values of a context that follow from these parameters of the scene; None if the
+        parameters reach more than that: the structure of the system, or the settings of the run.
+
+        Examples
+        --------
+        >>> from saltus.scene_files import loads
+        >>> scene = loads('''
+        ... version = 1
+        ... parameters = { k = 2.0, T = 1.0 }
+        ... states = { x = { start = "k / 4", rate = "-k * x" } }
+        ... updates = { tick = { period = "T", set = { x = 1.0 } } }
+        ... ''')
+        >>> scene.following(frozenset(["k"])).row({"k": 8.0})
+        {'k': array(8.), 'x': array(2.)}
+        >>> scene.following(frozenset(["T"])) is None
+        True
+        """
+        try:
+            values = followed(self.tree, self.system, own)
+        except Structural:
+            return None
+        if names_in(self.tree.get("run", {})) & values.moved:
+            return None
+        return Columns(self.tree, values, own)
 
     def entry_named(self, name: str) -> str:
         """The name in a context of a parameter or of a state of a block.
@@ -270,6 +335,37 @@ class FileScene:
         return f"<FileScene '{self.name}'{title}{span}>"
 
 
+class Columns:
+    """The values of a context that follow from parameters of a scene, row by row."""
+
+    def __init__(self, tree: dict[str, Any], values: Followed, own: frozenset[str]):
+        self.tree, self.own, self.followed = tree, own, values
+        self._rows: dict[str, dict[str, np.ndarray]] = {}
+
+    def __call__(self, columns: Mapping[str, Column]) -> dict[str, Column]:
+        runs = len(next(iter(columns.values())))
+        rows = [self.row({n: entry(columns[n], i) for n in self.own}) for i in range(runs)]
+        made = {name: np.array([row[name] for row in rows]) for name in rows[0]}
+        return made | {name: c for name, c in columns.items() if name not in self.own}
+
+    def row(self, given: dict[str, Any]) -> dict[str, np.ndarray]:
+        """The values for these parameters. ModelError for one that the file does not allow, and
+        ValueError for one that is not finite.
+        """
+        key = repr(given)  # a sweep asks for the columns of a row more than once
+        if key not in self._rows:
+            try:
+                values = parameters_of((), _tree_with(self.tree, given), {})
+                found = list(self.followed.entries(values))
+            except Wrong as wrong:
+                raise ModelError(wrong.message) from None
+            made = {name: np.asarray(value, dtype=float) for name, value in found}
+            if not all(np.isfinite(value).all() for value in made.values()):
+                raise ValueError("a value that is not finite")
+            self._rows[key] = made
+        return self._rows[key]
+
+
 @dataclass(frozen=True)
 class Maker:
     """Makes the system of a scene with other values of its parameters."""
@@ -306,6 +402,11 @@ def _tree_with(tree: dict[str, Any], given: Mapping[str, Any]) -> dict[str, Any]
         own[name] = {**own[name], "value": plain} if isinstance(own[name], dict) else plain
     tree["parameters"] = own
     return tree
+
+
+def _share(some: Collection[str], others: Collection[str]) -> bool:
+    """Whether there is a block of which both have states."""
+    return bool({n.rpartition(".")[0] for n in some} & {n.rpartition(".")[0] for n in others})
 
 
 def _names(values: Any) -> list[str]:

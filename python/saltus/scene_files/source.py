@@ -9,7 +9,7 @@ from saltus.errors import SceneError
 from saltus.scene_files.places import places_of, start_of_text
 from saltus.scene_files.wrong import Path, Wrong
 
-__all__ = ["Source", "error_of"]
+__all__ = ["Source", "error_of", "place_of"]
 
 
 @dataclass(frozen=True)
@@ -39,12 +39,23 @@ class Source:
 
 def error_of(wrong: Wrong, sources: Mapping[Path, Source]) -> SceneError:
     """The error for a mistake, by the file of the longest part of its path that has one."""
-    path = wrong.path
-    base = next(path[:n] for n in range(len(path), -1, -1) if path[:n] in sources)
-    source, inside = sources[base], path[len(base) :]
+    source, inside = _source_of(wrong.path, sources)
     place = source.place(inside, wrong.offset)
     key = "".join(f"[{k}]" if isinstance(k, int) else f".{k}" for k in inside).lstrip(".")
     line, column = place or (None, None)
     where = f"{source.file}:{line}:{column}" if line is not None else source.file
     said = f"{where}: {key}: {wrong.message}" if key else f"{where}: {wrong.message}"
     return SceneError(said, file=source.file, line=line, column=column, key=key)
+
+
+def place_of(path: Path, sources: Mapping[Path, Source]) -> str:
+    """file:line:column of the value of a key; empty if it is not known."""
+    source, inside = _source_of(path, sources)
+    place = source.place(inside, 0)
+    return "" if place is None else f"{source.file}:{place[0]}:{place[1]}"
+
+
+def _source_of(path: Path, sources: Mapping[Path, Source]) -> tuple[Source, Path]:
+    """The file of the longest part of a path that has one, and the rest of the path."""
+    base = next(path[:n] for n in range(len(path), -1, -1) if path[:n] in sources)
+    return sources[base], path[len(base) :]

@@ -42,6 +42,10 @@ class SceneMachine(StateMachine):
     """the equalities in its conditions that depend on what its inputs are"""
     structural: dict[str, str]
     """the parameters in its expressions that are in numbers of the block too, and where"""
+    fixed: frozenset[str]
+    """the parameters of the system in numbers of the block, as the time of a transition"""
+    read: frozenset[str]
+    """the parameters of the system in its expressions"""
     held: dict[str, int]
     """the variables, by name, and their positions in the discrete state"""
 
@@ -100,6 +104,11 @@ class _Reader:
             )
         made.motions, made.doubts = self.outputs, tuple(self.doubts)
         made.structural = {name: key for name, key in self.structural.items() if name in numbers}
+        lists = {name for name, value in self.values.items() if isinstance(value, list)}
+        made.fixed, made.read = (
+            frozenset({*self.structural, *lists, *self.parameters}),
+            frozenset(self.read),
+        )
         made.held = {name: i for i, name in enumerate(self.variables, FIRST)}
         return made
 

@@ -8,6 +8,7 @@ from typing import Any
 from saltus._core import known_names
 from saltus.diagram import DiagramBuilder
 from saltus.errors import ModelError
+from saltus.scene_files.event_wires import EVENT_KEYS, add_event_wires, export_events
 from saltus.scene_files.functions import value_of
 from saltus.scene_files.leaf import LEAF_KEYS, leaf_of
 from saltus.scene_files.library_block import SUBSYSTEMS, library_block
@@ -23,9 +24,9 @@ from saltus.scene_files.wiring import DiagramPart, Part, part_of
 from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
 from saltus.system import System
 
-__all__ = ["SYSTEM_KEYS", "parameters_of", "system_of_table"]
+__all__ = ["SYSTEM_KEYS", "Systems", "parameters_of", "system_of_table", "systems_in"]
 
-DIAGRAM_KEYS = ("blocks", "wires", "inputs", "outputs")
+DIAGRAM_KEYS = ("blocks", "wires", "inputs", "outputs", *EVENT_KEYS)
 SHARED_KEYS = ("description", "parameters", "systems")
 SYSTEM_KEYS = tuple(dict.fromkeys((*SHARED_KEYS, *DIAGRAM_KEYS, *LEAF_KEYS)))
 MOST_BLOCKS = 100_000
@@ -51,13 +52,17 @@ class Count:
             )
 
 
+Systems = dict[str, tuple[Path, dict[str, Any], Any]]
+"""name -> path and table of a definition, and the definitions that its own blocks may use"""
+
+
 @dataclass(frozen=True)
 class Place:
     """The place where a system is defined: its path, and the systems that its blocks may use."""
 
     path: Path
-    systems: dict[str, tuple[Path, dict[str, Any], Any]]
-    """name -> path, table and place of each definition that is known here"""
+    systems: Systems
+    """the definitions that are known here"""
     inside: tuple[str, ...]
     """the definitions that are being made, from the outermost on"""
     count: Count
@@ -89,7 +94,7 @@ def system_of_table(
     """The system of a table whose parameters have these values. Wrong for a mistake in it."""
     place = place or Place((), {}, (), Count())
     if "blocks" not in table:
-        for key in ("wires", "systems"):
+        for key in ("wires", "systems", "event_wires", "event_outputs"):
             if key in table:
                 raise Wrong((*place.path, key), f"'{key}' of a scene without 'blocks'; write these")
         place.count.one_more(place.path)
@@ -106,15 +111,20 @@ def system_of_table(
 def _with_systems(place: Place, table: dict[str, Any]) -> Place:
     path = (*place.path, "systems")
     own = table_at(path, table.get("systems", {}), "{ wheel = { states = ... } }")
-    known = dict(place.systems)
-    made = replace(place, systems=known)
     for name, inner in own.items():
         require_part_name((*path, name), name, "system")
         inner = table_at((*path, name), inner, "{ states = ... }")
         require_keys((*path, name), inner, SYSTEM_KEYS)
         require_texts((*path, name), {k: v for k, v in inner.items() if k == "description"})
-        known[name] = ((*path, name), inner, made)
-    return made
+    return replace(place, systems=systems_in(place.systems, place.path, table))
+
+
+def systems_in(known: Systems, path: Path, table: dict[str, Any]) -> Systems:
+    """The systems that blocks of a table may use: those known around it, and its own."""
+    inside = dict(known)
+    for name, inner in table.get("systems", {}).items():
+        inside[name] = ((*path, "systems", name), inner, inside)
+    return inside
 
 
 def _diagram(table: dict[str, Any], name: str, values: dict[str, Any], place: Place) -> System:
@@ -134,6 +144,9 @@ def _diagram(table: dict[str, Any], name: str, values: dict[str, Any], place: Pl
         with placed(at):
             builder.connect(source, destination)
         sources[destination] = source
+    wires = table.get("event_wires", [])
+    add_event_wires((*place.path, "event_wires"), wires, made, values, builder)
+    export_events(place.path, table, made, builder)
     ends: dict[str, dict[str, str]] = {"inputs": {}, "outputs": {}}
     for what, export in (("inputs", builder.export_input), ("outputs", builder.export_output)):
         at = (*place.path, what)
@@ -216,5 +229,5 @@ def _instance(
             known = known_names(key, list(own)) if own else "; it has none"
             raise Wrong((*path, key), f"system '{wanted}' has no parameter '{key}'{known}")
         given[key] = value_of((*path, key), value, values)
-    there = replace(home, path=at, inside=(*place.inside, label), count=place.count)
+    there = replace(place, path=at, systems=home, inside=(*place.inside, label))
     return system_of_table(inner, name, parameters_of(at, inner, given), there)

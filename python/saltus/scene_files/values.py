@@ -11,8 +11,9 @@ from saltus.scene_files.leaf import SceneLeaf
 from saltus.scene_files.state_machine import SceneMachine
 from saltus.system import System
 
-__all__ = ["entry_named", "states_named"]
+__all__ = ["entry_named", "leaf_of_block", "states_named"]
 
+STATE = re.compile(r"state x\[(\d+)\] of block '([^']+)'")
 RATE = re.compile(r"block '([^']+)'(.*?)xdot\[(\d+)\] = (\S+) where x = \[([^\]]*)\]")
 
 
@@ -66,13 +67,26 @@ def _remedy(tree: dict[str, Any], path: list[str], own: str) -> str:
     )
 
 
+def _state_named(match: re.Match[str], system: System) -> str:
+    leaf = leaf_of_block(system, match[2])
+    if not isinstance(leaf, SceneLeaf) or int(match[1]) >= len(leaf.states):
+        return match[0]
+    return f"state '{leaf.states[int(match[1])]}' of block '{match[2]}'"
+
+
+def leaf_of_block(system: System, block: str) -> System | None:
+    """The block that a message names by its path; None if there is none."""
+    return system if block == system.name else _leaf_of(system, f"{block}.x")[1]
+
+
 def states_named(message: str, system: System) -> str:
     """The message of a run that failed, with the names of states in place of their positions."""
+    message = STATE.sub(lambda match: _state_named(match, system), message)
     match = RATE.search(message)
     if match is None:
         return message
     block, between, position, rate, values = match.groups()
-    leaf = system if block == system.name else _leaf_of(system, f"{block}.x")[1]
+    leaf = leaf_of_block(system, block)
     if not isinstance(leaf, SceneLeaf) or int(position) >= len(leaf.states):
         return message
     shown = ", ".join(

@@ -13,7 +13,7 @@ __all__ = ["text_of"]
 
 BARE = re.compile(r"[A-Za-z0-9_-]+")
 WIDE = 100
-HEADED = ("guards", "edges", "updates")  # each entry of these gets a header
+HEADED = ("guards", "edges", "updates", "event_inputs")  # each entry of these gets a header
 
 
 def text_of(tree: dict[str, Any], kind: str) -> str:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from saltus.errors import ModelError
 from saltus.results import Results
-from saltus.results.outcome import INSTEAD
+from saltus.results.elsewhere import INSTEAD
 from saltus.results.record import FIRINGS, KINDS, KeptRun, Record
 from saltus.results.saving import save
 from saltus.solving.form import PLAIN, Form

@@ -226,3 +226,55 @@ def test_the_option_interrupt_ends_a_fit():
     found = saltus.fit(Decay(), data, {"k": 0.1}, interrupt=stop)
     assert found.status == "interrupted" and found.evaluations <= 3
     assert "interrupt" in found.message
+
+
+class Wave(saltus.LeafSystem):
+    """x' = cos(w t) w / w: x = sin(w t) / w, whose steps are as many as its periods."""
+
+    def __init__(self, w=3.0):
+        super().__init__(name="wave")
+        self.declare_dynamic_parameter("w", w)
+        self.declare_continuous_state([0.0], ode=self.ode)
+        self.declare_continuous_state_output("x")
+
+    def ode(self, time, state, *, w):
+        return [np.cos(w * time)]
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+def test_a_trial_run_that_is_endless_is_ended(python):
+    """The drawn starts are some 1e8 rad/s, of which a run has some 1e9 steps: hours."""
+    data = {"time": T, "x": np.sin(3.1 * T) / 3.1}
+    free = {"w": saltus.Free(3.0, 1.0, 1e9)}
+    found = saltus.fit(Wave(), data, free, starts=3, seed=1, python=python)
+    assert found.success and found.parameters["w"] == pytest.approx(3.1, rel=1e-6)
+    assert [start.status for start in found.starts] == ["converged", "failed", "failed"]
+    assert "the run was ended after 1616 steps" in found.first_failure
+
+
+def test_the_bound_counts_from_the_first_run():
+    from saltus.fitting.step_bound import FACTOR, LEAST, POLL, StepBound
+
+    bound = StepBound(None)
+    assert not any(bound() for _ in range(10 * LEAST))  # the first run has none
+    bound.begin()
+    for _ in range(50):
+        assert not bound()
+    bound.well()
+    bound.begin()
+    calls = [bound() for _ in range(50 * FACTOR + 1)]
+    assert calls[-1] and not any(calls[:-1]) and bound.reached
+    assert str(POLL * len(calls)) in bound.message
+    bound.begin()
+    assert not bound() and not bound.reached
+    short = StepBound(None)
+    short.well()
+    assert not any(short() for _ in range(LEAST // POLL))
+    assert short()
+
+
+def test_the_interrupt_of_the_user_is_asked_too():
+    from saltus.fitting.step_bound import StepBound
+
+    bound = StepBound(lambda: True)
+    assert bound() and not bound.reached

@@ -65,7 +65,10 @@ DATA = {
     ),
     "text": ({"time": T, "height": ["a", "b", "c"]}, "'height': expected numbers"),
     "infinite": ({"time": T, "height": [1, np.inf, 1]}, "'height' is infinite at t = 0.2 s"),
-    "nan in time": ({"time": [0.1, np.nan, 0.3], "height": Y}, "'time': expected a list of finite"),
+    "nan in time": (
+        {"time": [0.1, np.nan, 0.3], "height": Y},
+        "'time': expected a list of finite times .s., found nan in row 1; leave the row out",
+    ),
     "width": ({"time": T, "state": Y}, "'state': expected 2 numbers for each time, found 1"),
     "entry": ({"time": T, "state[2]": Y}, r"'state\[2\]': the signal has 2 entries"),
     "before": ({"time": [-0.1, 0.2, 0.3], "height": Y}, "t = -0.1 s is outside of the run"),
@@ -95,6 +98,9 @@ def test_event_times_that_go_back():
         saltus.EventTimes([2.0, 1.0])
     with pytest.raises(saltus.ModelError, match="write nan for a missing value"):
         saltus.EventTimes([np.inf])
+    for sigma in (0.0, -1.0, np.nan, [0.1, 0.0]):
+        with pytest.raises(saltus.ModelError, match="expected standard deviations above 0 s"):
+            saltus.EventTimes([1.0, 2.0], sigma=sigma)
 
 
 def test_fewer_data_than_parameters():
@@ -104,7 +110,10 @@ def test_fewer_data_than_parameters():
 
 
 OPTIONS = {
-    "sigma": ({"sigma": {"height": 0.0}}, "standard deviations above 0"),
+    "sigma": ({"sigma": {"height": 0.0}}, "standard deviations above 0, found 0;"),
+    "one sigma": ({"sigma": {"height": [1.0, -2.0, 1.0]}}, "above 0, found -2 in row 1"),
+    "sigma nan": ({"sigma": np.nan}, "above 0, found nan"),
+    "sigma true": ({"sigma": True}, "expected a number, found True"),
     "sigma of what": ({"sigma": {"heigth": 1.0}}, "the data have no 'heigth'; did you mean"),
     "sigma shape": ({"sigma": {"height": [1.0, 2.0]}}, "expected a number or the shape"),
     "absolute": ({"absolute_sigma": True}, "sigma has none of 'height'"),

@@ -81,7 +81,7 @@ def test_every_function_is_numpys_and_is_traced(name):
     assert scene.simulate().outputs["y"][-1] == pytest.approx(
         getattr(np, function)(*numbers), rel=4e-16
     )
-    assert [c.runs for c in scene.system.explain()] == ["traced"]
+    assert {c.runs for c in scene.system.explain()} == {"traced"}
 
 
 def test_variables_may_be_made_of_variables_and_doubling_costs_nothing():

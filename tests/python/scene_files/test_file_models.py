@@ -17,8 +17,8 @@ def times(results, event):
 
 
 def test_there_are_models_and_the_four_scenes_of_the_tutorial():
-    assert len(MODELS) == 21
-    assert len(FILES) == 25
+    assert len(MODELS) == 22
+    assert len(FILES) == 26
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -90,6 +90,20 @@ def test_the_neuron_counts_its_spikes_and_is_silent_before_the_current():
     spikes = times(results, "spike")
     assert len(spikes) == results.outputs["spikes"][-1] > 5
     assert spikes[0] > 50.0
+
+
+def test_the_cells_spike_as_their_wires_say():
+    # The first cell alone fires each tau ln 2 = 13.86 ms. The second tends to 0.9; 2 ms after each
+    # spike it has gained 0.6 and fires, and its own spike lowers the first by 0.1 at once.
+    results = run("spiking_cells")
+    first, second = (
+        np.array([e.time for e in results.events if e.block == name])
+        for name in ("first", "second")
+    )
+    assert first[0] == pytest.approx(0.02 * np.log(2.0), abs=1e-9)
+    assert len(first) == 4  # the delivery of the last one is due after the run
+    assert second == pytest.approx(first[:3] + 0.002, abs=1e-12)
+    assert results.outputs["second.spikes"][-1] == 3
 
 
 def test_the_clock_ticks_each_second():
