@@ -39,7 +39,6 @@ std::vector<SensitivityEntry> chosen_entries(const std::vector<std::string>& nam
   std::vector<SensitivityEntry> all;
   for (const std::string& name : names) {
     const ContextEntry entry = find_entry(layout, name);
-    require_differentiable(entry, text("option sensitivity: ", name));
     if (entry.kind == ContextEntry::Kind::mode)
       throw ModelError(text("option sensitivity: '", name,
                             "' is a mode, an integer, so nothing has a derivative with respect to "

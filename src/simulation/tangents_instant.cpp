@@ -123,7 +123,7 @@ void Tangents::call_declared(const Transition::Call& call, const DerivativesFunc
       else if (place.space == Space::z)
         values(column, k) = (own ? next_z_ : columns_.z)(place.offset, k);
       else if (place.space == Space::p)
-        values(column, k) = nth(columns_.parameters, k) == place.offset ? 1.0 : 0.0;
+        values(column, k) = columns_.p->at(place.offset, k);
       else
         values(column, k) = columns_.y(place.offset, k);
     }

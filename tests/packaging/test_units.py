@@ -32,6 +32,8 @@ ELSEWHERE = {
     "plan/detail/passes": "unit/islands_test.cpp",
     "simulation/detail/called_derivatives": "unit/declared_derivatives_test.cpp",
     "simulation/detail/chain_rule": "unit/linearize_test.cpp",
+    "simulation/detail/kinks": "unit/computed_derivatives_test.cpp",
+    "simulation/detail/parameter_moves": None,
     "simulation/detail/collector": "unit/instant_test.cpp",
     "simulation/detail/effects": "unit/transition_test.cpp",
     "simulation/detail/deliveries": "semantics/event_wires_delay_test.cpp",

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "saltus/model/context_entry.hpp"
+#include "saltus/simulation/detail/computed_derivatives.hpp"
 #include "saltus/simulation/detail/flow_jumps.hpp"
 #include "saltus/simulation/detail/inputs_before.hpp"
 #include "saltus/simulation/detail/integration.hpp"
@@ -18,6 +19,8 @@
 #include "saltus/simulation/detail/variation.hpp"
 
 namespace saltus {
+
+struct SensitivityEntry;
 
 /// Watches a run and never changes it. Between instants it solves the linear equation S' = f_x S +
 /// f_p along the steps of the run. At an instant whose time tau depends on a parameter it goes over
@@ -82,6 +85,8 @@ class Tangents {
   Index size() const { return columns_.size(); }
   bool in_instant() const { return phase_ != Phase::between; }
   std::string cause() const { return cause_.value_or(""); }
+  std::vector<ParameterDirection> directions_of(const std::vector<SensitivityEntry>& all,
+                                                const Context& start);
   void begin_signals(const Context& start);
   void clear_truths();
   void call_declared(const Transition::Call& call, const DerivativesFunction& derivatives,
@@ -105,6 +110,7 @@ class Tangents {
   const GuardSet* guards_;
   const SimulatorOptions* options_;
   Results* results_;
+  ComputedDerivatives computed_;
   TangentProbe probe_;
   TangentFlow flow_;
   FlowJumps jumps_;
