@@ -70,6 +70,7 @@ void Tangents::begin(const Context& start) {
   rows_.begin(std::move(names));
   variation_.emplace(Variation::Tolerances{options_->rtol.smallest(), std::move(atol)});
   columns_.t.setZero(m);
+  waits_.begin(m), guard_sizes_.setZero(machine_->plan().look_slots);
   jumps_.begin(plan.nx), gaps_.begin(), events_.begin(), one_sided_.begin();
   t_ = start.time(), phase_ = Phase::between;
   probe_.begin(), probe_.note(machine_->x.data(), 0.0);

@@ -66,6 +66,7 @@ ELSEWHERE = {
     "simulation/detail/tangent_flow": "laws/sensitivities_test.cpp",
     "simulation/detail/tangent_probe": "laws/sensitivities_test.cpp",
     "simulation/detail/tangent_rows": "laws/sensitivities_test.cpp",
+    "simulation/detail/tangent_waits": "laws/waiting_sensitivities_test.cpp",
     "simulation/detail/tangent_times": "laws/sensitivities_test.cpp",
     "simulation/detail/tangent_trajectory": "unit/dense_sensitivities_test.cpp",
     "simulation/detail/tangents": "laws/sensitivities_test.cpp",
