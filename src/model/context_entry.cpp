@@ -103,13 +103,6 @@ ContextEntry find_entry(const Layout& layout, std::string_view name) {
       text("unknown parameter or state '", name, "'", known_names(name, entry_names(layout))));
 }
 
-void require_differentiable(const ContextEntry& entry, std::string_view what) {
-  if (entry.role != Layout::Role::of_diagram) return;
-  throw ModelError(text(what,
-                        " is a parameter of a diagram; derivatives are known by the "
-                        "parameters of blocks that are computed from it, so name these"));
-}
-
 void require_width(const ContextEntry& entry, Index given, std::string_view name) {
   const bool fills = given == 1 && entry.kind == ContextEntry::Kind::parameter;
   if (fills || given == entry.size) return;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "saltus/model/computed_parameter.hpp"
+
 namespace saltus::detail {
 
 namespace {
@@ -133,6 +135,19 @@ std::vector<int> sources_of(const Plan& plan, int leaf) {
   std::ranges::sort(leaves);
   leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
   return leaves;
+}
+
+int leaf_of_parameter(const Plan& plan, Index entry) {
+  const auto after = std::ranges::upper_bound(plan.leaves, entry, {}, &PlanLeaf::p);
+  return static_cast<int>(after - plan.leaves.begin()) - 1;
+}
+
+List<std::vector<int>> computed_by_leaf(const Plan& plan) {
+  List<std::vector<int>> of(plan.leaves.size());
+  if (!plan.computed) return of;
+  const auto& all = plan.computed->all;
+  for (int i = 0; i < std::ssize(all); ++i) of[leaf_of_parameter(plan, all[i].to)].push_back(i);
+  return of;
 }
 
 }  // namespace saltus::detail

@@ -22,4 +22,9 @@ struct IslandBlocks {
 /// The other leaves that a leaf reads, in order.
 std::vector<int> sources_of(const Plan& plan, int leaf);
 
+/// The leaf that has this entry of the parameters of all.
+int leaf_of_parameter(const Plan& plan, Index entry);
+/// Of each leaf: the numbers of the parameters that diagrams compute for it.
+List<std::vector<int>> computed_by_leaf(const Plan& plan);
+
 }  // namespace saltus::detail

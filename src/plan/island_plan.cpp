@@ -1,6 +1,8 @@
 // The plan of one island.
 #include <algorithm>
 
+#include "island_blocks.hpp"
+#include "saltus/model/computed_parameter.hpp"
 #include "saltus/plan/detail/passes.hpp"
 #include "saltus/plan/islands.hpp"
 
@@ -31,6 +33,24 @@ void add_event_wires(const Plan& whole, Plan& part, const std::vector<int>& leav
   mark_receivers(part);
 }
 
+/// The diagrams that compute them are in the part.
+void add_computed(const Plan& whole, Plan& part, const std::vector<int>& leaves,
+                  const std::vector<int>& computed) {
+  if (computed.empty()) return;
+  const auto moved = [&](Index entry) {
+    const int leaf = leaf_of_parameter(whole, entry);
+    const auto number = std::ranges::lower_bound(leaves, leaf) - leaves.begin();
+    return entry - whole.leaf(leaf).p + part.leaf(number).p;
+  };
+  auto all = std::make_shared<ComputedParameters>();
+  for (const int i : computed) {
+    ComputedParameter one = nth(whole.computed->all, i);
+    one.to = moved(one.to), one.from = moved(one.from);
+    all->all.push_back(std::move(one));
+  }
+  part.computed = std::move(all);
+}
+
 }  // namespace
 
 std::shared_ptr<const Plan> plan_of_island(const Plan& whole, const Islands& islands,
@@ -50,6 +70,7 @@ std::shared_ptr<const Plan> plan_of_island(const Plan& whole, const Islands& isl
       part.leaves[l].inputs[input] = in_part(whole, part, leaves, inputs[input]);
   }
   if (whole.event_wires.any()) add_event_wires(whole, part, leaves, islands.event_wires[k]);
+  if (whole.computed) add_computed(whole, part, leaves, islands.computed[k]);
   add_needs(part);
   for (const int tap : islands.taps[k]) {
     const Tap& recorded = nth(whole.taps, tap);

@@ -7,6 +7,9 @@
 #include <utility>
 
 #include "island_blocks.hpp"
+#include "saltus/model/computed_parameter.hpp"
+#include "saltus/model/detail/diagram_parameters.hpp"
+#include "saltus/plan/detail/needs.hpp"
 
 namespace saltus {
 
@@ -45,7 +48,8 @@ class Finder {
       : plan_(plan),
         n_(static_cast<int>(plan.leaves.size())),
         blocks_(plan),
-        sets_(plan.leaves.size()) {
+        sets_(plan.leaves.size()),
+        computed_of_(computed_by_leaf(plan)) {
     for (int i = 0; i < n_; ++i)
       if (blocks_.live[i]) sets_.enliven(i);
     join_wires();
@@ -53,6 +57,7 @@ class Finder {
     join_event_wires();
     collect();
     collect_event_wires();
+    collect_computed();
   }
 
   Islands take() { return std::move(found_); }
@@ -121,6 +126,24 @@ class Finder {
       nth(found_.event_wires, found_.of_leaf[wires[i].from]).push_back(static_cast<int>(i));
   }
 
+  /// The diagrams compute in the order of the whole plan, the outer ones first.
+  void collect_computed() {
+    found_.diagrams.assign(found_.count(), 0);
+    if (!plan_.computed) return;
+    found_.computed.resize(found_.count());
+    for (std::size_t k = 0; k < found_.count(); ++k) {
+      for (const int i : found_.leaves[k]) {
+        detail::append(found_.computed[k], computed_of_[i]);
+        if (is_diagram(i)) ++found_.diagrams[k];
+      }
+      std::ranges::sort(found_.computed[k]);
+    }
+  }
+
+  bool is_diagram(int i) const {
+    return dynamic_cast<const DiagramParameters*>(leaf(i).system) != nullptr;
+  }
+
   void collect() {
     found_.of_leaf.assign(plan_.leaves.size(), -1);
     List<int> island(plan_.leaves.size(), -1);
@@ -146,7 +169,8 @@ class Finder {
     nth(found_.leaves, island).push_back(i);
   }
 
-  /// Adds the sources that an island reads, and the sources of these.
+  /// Adds the sources that an island reads, the diagrams that compute parameters of its blocks, and
+  /// the same of these.
   void add_copies(std::size_t k) {
     std::vector<int>& leaves = found_.leaves[k];
     std::vector<int> open = leaves;
@@ -156,6 +180,10 @@ class Finder {
       for (const int source : sources_of(plan_, i)) {
         if (!blocks_.copied[source]) continue;
         leaves.push_back(source), open.push_back(source);
+      }
+      for (const int number : computed_of_[i]) {
+        const int diagram = leaf_of_parameter(plan_, plan_.computed->all[number].from);
+        leaves.push_back(diagram), open.push_back(diagram);
       }
     }
     std::ranges::sort(leaves);
@@ -182,7 +210,8 @@ class Finder {
   int n_;
   IslandBlocks blocks_;
   Sets sets_;
-  List<int> reader_;  // the first island that has the leaf
+  List<std::vector<int>> computed_of_;  // of each leaf: the parameters that diagrams compute for it
+  List<int> reader_;                    // the first island that has the leaf
   Islands found_;
 };
 

@@ -6,6 +6,7 @@
 #include "expressions.hpp"
 #include "saltus/plan/detail/needs.hpp"
 #include "saltus/tape/jacobian.hpp"
+#include "saltus/tape/switches.hpp"
 
 namespace saltus {
 
@@ -37,79 +38,6 @@ tape::Node variable(tape::Graph& graph, const ReadValue& read) {
   return read.space == Space::p ? graph.parameter(read.index) : graph.discrete_state(read.index);
 }
 
-/// The switches of some expressions: see LeafPartials.
-class Switches {
- public:
-  explicit Switches(tape::Graph& graph) : graph_(graph) {}
-
-  std::vector<tape::Node> of(std::span<const tape::Node> rows) {
-    std::vector<char> seen(static_cast<std::size_t>(graph_.size()), 0);
-    std::vector<tape::Node> open(rows.begin(), rows.end());
-    while (!open.empty()) {
-      const tape::Node node = open.back();
-      open.pop_back();
-      if (std::exchange(nth(seen, node.id), char{1})) continue;
-      const tape::Expression of = graph_[node];  // a copy: `look` adds nodes
-      look(of);
-      open.insert(open.end(), of.operands.begin(), of.operands.begin() + operand_count(of.op));
-    }
-    return std::move(found_);
-  }
-
- private:
-  using Op = tape::Op;
-
-  void look(const tape::Expression& of) {
-    const auto& [a, b, c] = of.operands;
-    switch (of.op) {
-      case Op::lt:
-      case Op::le:
-      case Op::gt:
-      case Op::ge:
-      case Op::eq:
-      case Op::ne:
-      case Op::minimum:
-      case Op::maximum:
-        return add(a, b);
-      case Op::abs:
-      case Op::sign:
-        return add(a, zero());
-      case Op::copysign:
-        return add(a, zero()), add(b, zero());
-      case Op::hypot:
-        return add(graph_.binary(Op::hypot, a, b), zero());
-      case Op::floor:
-      case Op::ceil:
-      case Op::trunc:
-        return add(a, graph_.unary(Op::rint, a));
-      case Op::rint:  // its jumps are between the whole numbers
-        return add(graph_.unary(Op::abs, graph_.binary(Op::sub, a, graph_.unary(Op::rint, a))),
-                   graph_.constant(0.5));
-      case Op::mod:
-      case Op::fmod:
-      case Op::floor_divide: {
-        const tape::Node quotient = graph_.binary(Op::div, a, b);
-        return add(quotient, graph_.unary(Op::rint, quotient));
-      }
-      default:
-        return;
-    }
-  }
-  tape::Node zero() { return graph_.constant(0.0); }
-  void add(tape::Node a, tape::Node b) {
-    found_.insert(found_.end(), {a, b, graph_.binary(Op::add, terms(a), terms(b))});
-  }
-  tape::Node terms(tape::Node a) {
-    const tape::Expression of = graph_[a];
-    const bool sum = of.op == Op::sub || of.op == Op::add;
-    const auto size = [&](tape::Node node) { return graph_.unary(Op::abs, node); };
-    return sum ? graph_.binary(Op::add, size(of.operands[0]), size(of.operands[1])) : size(a);
-  }
-
-  tape::Graph& graph_;
-  std::vector<tape::Node> found_;
-};
-
 LeafPartials partials_of(const Plan& plan, const LeafFunction& function, const Formula& formula) {
   List<int> first(plan.nodes.size(), Expressions::variable);
   Expressions expressions(plan, first);
@@ -117,7 +45,7 @@ LeafPartials partials_of(const Plan& plan, const LeafFunction& function, const F
   std::vector<tape::Node> rows(added.begin(), added.end()), variables;
   tape::Graph& graph = expressions.graph();
   for (const ReadValue& read : function.reads) variables.push_back(variable(graph, read));
-  const std::vector<tape::Node> switches = Switches(graph).of(rows);
+  const std::vector<tape::Node> switches = tape::switches_of(graph, rows);
   std::vector<LeafPartials::Entry> entries;
   std::vector<tape::Node> values = rows;
   for (const tape::Partial& one : tape::differentiate(graph, rows, variables)) {
@@ -125,7 +53,7 @@ LeafPartials partials_of(const Plan& plan, const LeafFunction& function, const F
     values.push_back(one.value);
   }
   values.insert(values.end(), switches.begin(), switches.end());
-  return {std::move(entries), static_cast<Index>(switches.size()) / LeafPartials::numbers_of_switch,
+  return {std::move(entries), static_cast<Index>(switches.size()) / tape::numbers_of_switch,
           tape::Tape(graph, values)};
 }
 

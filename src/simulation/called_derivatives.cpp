@@ -91,7 +91,10 @@ void CalledDerivatives::difference(const LeafFunction& function, double t, const
 
 TangentDirection CalledDerivatives::along(const ReadValue& read) {
   unit_x_.setZero(), unit_z_.setZero(), unit_y_.setZero();
-  if (read.space == Space::p) return {.parameter = read.index};
+  if (read.space == Space::p) {
+    unit_p_ = {read.index, 1.0};
+    return {.p = {&unit_p_, 1}};
+  }
   Eigen::VectorXd& unit = read.space == Space::x   ? unit_x_
                           : read.space == Space::z ? unit_z_
                                                    : unit_y_;

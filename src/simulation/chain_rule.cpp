@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "saltus/plan/detail/needs.hpp"
+#include "saltus/simulation/detail/kinks.hpp"
 
 namespace saltus {
 
@@ -126,7 +127,7 @@ std::vector<std::string> ChainRule::called() const { return called_; }
 
 /// Whether a value moves with one of the columns.
 bool ChainRule::moves(const ReadValue& read) const {
-  if (read.space == Space::p) return columns_.of_parameter[read.index] >= 0;
+  if (read.space == Space::p) return !columns_.parameters.of_entry(read.index).empty();
   if (read.space == Space::z || follows_ == Follows::parameters) return false;
   if (read.space == Space::x) return true;
   return !y_.row(read.index).isZero(0.0);
@@ -134,9 +135,10 @@ bool ChainRule::moves(const ReadValue& read) const {
 
 void ChainRule::add(const ReadValue& read, double value, Eigen::Ref<Eigen::RowVectorXd> row) const {
   if (read.space == Space::x) row[read.index] += value;
-  if (read.space == Space::p && columns_.of_parameter[read.index] >= 0)
-    row[columns_.of_parameter[read.index]] += value;
   if (read.space == Space::y) row += value * y_.row(read.index);
+  if (read.space != Space::p) return;
+  for (const auto& column : columns_.parameters.of_entry(read.index))
+    row[column.number] += value * column.by;
 }
 
 Eigen::MatrixXd ChainRule::derivative(const LeafFunction& function) {
@@ -153,7 +155,9 @@ Eigen::MatrixXd ChainRule::exact(const LeafFunction& function) {
   variables_.at(t_, machine_.x.data(),
                 [&](const At& at) { partials.tape.evaluate(at, values_.data()); });
   const Eigen::VectorXd values = values_;
-  if (has_switch_here(partials, function.size) && has_kink(function) && obstacle_.empty())
+  const double* switches =
+      values.data() + function.size + static_cast<Index>(partials.entries.size());
+  if (has_switch_at_limit(switches, partials.switches) && has_kink(function) && obstacle_.empty())
     obstacle_ = text(function.name, " has a kink or a jump");
   Eigen::MatrixXd by = Eigen::MatrixXd::Zero(function.size, columns_.size);
   Eigen::RowVectorXd row(columns_.size);

@@ -6,6 +6,7 @@
 
 #include "saltus/plan/detail/event_wiring.hpp"
 #include "saltus/simulation/detail/calendar.hpp"
+#include "saltus/simulation/detail/tangents.hpp"
 
 namespace saltus {
 
@@ -74,14 +75,38 @@ void Deliveries::fire(int source) {
       fired_.push_back(batch);
       continue;
     }
-    queue_.add(present_->t + delay, batch);
+    const std::int64_t number = queue_.add(present_->t + delay, batch);
+    if (Tangents* tangents = transition_->tangents()) tangents->wait(number);
     set_off_ = set_off_ || delivered_;
   }
 }
 
+/// What is due up to this time [s] is due now.
+double Deliveries::now() const { return present_->t + Calendar::slack(present_->t); }
+
+/// The event from which a batch of wires starts.
+const std::string& Deliveries::name_of(int batch) const {
+  const int source = wires().batches[batch].source;
+  if (source >= plan().guard_slots)
+    return plan().scheduled(source - static_cast<int>(plan().guard_slots)).name;
+  const auto after = std::ranges::upper_bound(plan().guards, Index{source}, {}, &GuardGroup::slot);
+  return (after - 1)->name;
+}
+
+void Deliveries::add_due(std::vector<DueNow>& all) const {
+  for (const auto& [key, batch] : queue_.waiting()) {
+    if (key.first > now()) break;
+    all.push_back({{WaitingKey::Queue::deliveries, key.second}, name_of(batch)});
+  }
+}
+
 bool Deliveries::collect() {
-  const double now = present_->t + Calendar::slack(present_->t);
-  while (queue_.next() <= now) fired_.push_back(queue_.take());
+  while (queue_.next() <= now()) {
+    const std::int64_t number = queue_.waiting().begin()->first.second;
+    fired_.push_back(queue_.take());
+    if (Tangents* tangents = transition_->tangents())
+      tangents->take_delivery(number, name_of(fired_.back()));
+  }
   for (const int number : fired_) {
     const EventWires::Batch& batch = wires().batches[number];
     for (int target = batch.first; target < batch.last; ++target) arriving_.push_back(target);

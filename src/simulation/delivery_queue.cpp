@@ -18,10 +18,11 @@ void DeliveryQueue::undo() {
   changes_.clear();
 }
 
-void DeliveryQueue::add(double t, int batch) {
+std::int64_t DeliveryQueue::add(double t, int batch) {
   const Key key{t, added_++};
   waiting_.emplace_hint(waiting_.end(), key, batch);
   changes_.push_back({key, batch, true});
+  return key.second;
 }
 
 int DeliveryQueue::take() {

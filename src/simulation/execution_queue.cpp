@@ -45,11 +45,12 @@ void ExecutionQueue::undo() {
   open();
 }
 
-void ExecutionQueue::add(WaitingExecution execution) {
-  execution.pending.number = scheduled_++;
+std::int64_t ExecutionQueue::add(WaitingExecution execution) {
+  const std::int64_t number = execution.pending.number = scheduled_++;
   changes_.push_back({execution, true});
   put(std::move(execution));
   update();
+  return number;
 }
 
 WaitingExecution ExecutionQueue::take(Key key) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "saltus/base/philox.hpp"
+#include "saltus/simulation/detail/tangents.hpp"
 
 namespace saltus {
 
@@ -87,11 +88,14 @@ void Executions::schedule(int group, Index entry, int from) {
                                    .frozen = crossing.use_values_from_trigger_time.value_or(false)},
                        .group = group,
                        .chain = chain_.next()};
-  if (one.pending.frozen)
-    one.pending.values =
-        transition_->values({&crossing.reset_map, of.leaf, entry, present_->t, of.name});
+  const Transition::Call call{&crossing.reset_map, of.leaf, entry, present_->t, of.name};
+  if (one.pending.frozen) one.pending.values = transition_->values(call);
   note(EventKind::scheduled, one, -from);
-  queue_.add(std::move(one));
+  PendingExecution scheduled = one.pending;
+  scheduled.number = queue_.add(std::move(one));
+  if (Tangents* tangents = transition_->tangents())
+    tangents->schedule(scheduled, call, crossing.delay ? &*crossing.delay : nullptr,
+                       transition_->seen_by(of.leaf, entry));
 }
 
 double Executions::delay_of(int group, Index entry) const {
@@ -109,6 +113,7 @@ double Executions::delay_of(int group, Index entry) const {
 void Executions::cancel(int group, Index entry, int from) {
   const auto key = queue_.of_guard(group, static_cast<int>(entry));
   if (!key) return;
+  if (Tangents* tangents = transition_->tangents()) tangents->cancel(key->second);
   note(EventKind::cancelled, queue_.take(*key), -from);
 }
 
@@ -120,9 +125,32 @@ bool Executions::collect() {
   due_.priorities.clear();
   for (const Key& key : due_.keys) due_.priorities.push_back(priority_of(queue_.waiting().at(key)));
   const std::size_t first = choose_first(due_.priorities, [this] { return draw(); });
+  if (transition_->tangents() != nullptr) look_at_ties(due_.priorities[first]);
   taken_ = queue_.take(due_.keys[first]);
+  if (Tangents* tangents = transition_->tangents())
+    tangents->take_execution(taken_.pending.number, plan().guard(taken_.group).name);
   present_->actions.push_back({taken_.pending.leaf, Cause::execution, taken_.group, -1, 0, false});
   return true;
+}
+
+/// Tells the derivatives which executions have the priority of the one that is taken.
+void Executions::look_at_ties(double priority) {
+  std::vector<Tangents::PriorityOf> tied;
+  for (std::size_t i = 0; i < due_.keys.size(); ++i) {
+    if (due_.priorities[i] != priority) continue;
+    const WaitingExecution& one = queue_.waiting().at(due_.keys[i]);
+    const ZeroCrossing& crossing = crossing_of(one.group);
+    tied.push_back({crossing.priority ? &*crossing.priority : nullptr, one.pending.leaf,
+                    one.pending.entry, plan().guard(one.group).name});
+  }
+  if (tied.size() > 1) transition_->tangents()->tie(tied);
+}
+
+void Executions::add_due(std::vector<DueNow>& all) {
+  find_due();
+  for (const Key& key : due_.keys)
+    all.push_back({{WaitingKey::Queue::executions, key.second},
+                   plan().guard(queue_.waiting().at(key).group).name});
 }
 
 void Executions::find_due() {
@@ -185,10 +213,11 @@ Index Executions::execute(const Action& action) {
   const PendingExecution& one = taken_.pending;
   const Transition::Call call{&crossing.reset_map, one.leaf, one.entry, present_->t,
                               plan().guard(action.index).name};
-  if (one.frozen)
+  if (one.frozen) {
+    if (Tangents* tangents = transition_->tangents()) tangents->write_frozen(one);
     transition_->write(one.leaf, one.values);
-  else if (crossing.reset_map)
-    transition_->run(call);
+  }
+  if (!one.frozen && crossing.reset_map) transition_->run(call);
   if (crossing.end_mode) transition_->enter_mode(one.leaf, *crossing.end_mode);
   set_off_ = set_off_ || taken_.chain > 1;
   chain_.execute(queue_.is_new(one) ? taken_.chain : 1, present_->pass);

@@ -26,8 +26,7 @@ FlowChain::FlowChain(const Machine& machine, const TangentProbe& sizes)
       variables_(machine_),
       for_rates_(functions_of(machine.plan(), machine.plan().needs.derivatives)),
       for_guards_(functions_of(machine.plan(), machine.plan().needs.guards)),
-      guard_of_slot_(machine.plan().guard_slots, -1),
-      column_(machine.plan().np, Index{-1}) {
+      guard_of_slot_(machine.plan().guard_slots, -1) {
   const Plan& plan = machine.plan();
   for (const int leaf : plan.odes) rates_.push_back(function_of_rates(plan, leaf));
   for (const GuardGroup& group : plan.guards) {
@@ -48,9 +47,7 @@ void FlowChain::set(const double* x, const TangentColumns& columns) {
   count_ = n + m;
   z_.setZero(machine_.z.size(), count_), y_.setZero(machine_.y.size(), count_);
   z_.rightCols(m) = columns.z, y_.rightCols(m) = columns.y;
-  std::ranges::fill(column_, -1);
-  for (Index k = 0; k < m; ++k)
-    if (nth(columns.parameters, k) >= 0) column_[nth(columns.parameters, k)] = n + k;
+  p_ = columns.p;
 }
 
 /// The values of nodes, and their derivatives. A truth that is computed between instants is constant.
@@ -118,16 +115,25 @@ void FlowChain::guard(double t, const double* x, Index slot, const TangentColumn
 
 bool FlowChain::moves(const ReadValue& read) const {
   if (read.space == Space::x) return true;
-  if (read.space == Space::p) return column_[read.index] >= 0;
+  if (read.space == Space::p) return !columns_of(read.index).empty();
   return !(read.space == Space::z ? z_ : y_).row(read.index).isZero(0.0);
 }
 
-/// The derivatives of a value that a function reads.
-Eigen::RowVectorXd FlowChain::row_of(const ReadValue& read) const {
-  if (read.space == Space::z) return z_.row(read.index);
-  if (read.space == Space::y) return y_.row(read.index);
-  return Eigen::RowVectorXd::Unit(count_,
-                                  read.space == Space::x ? read.index : column_[read.index]);
+/// The columns that move a parameter.
+std::span<const ParameterMoves::Column> FlowChain::columns_of(Index parameter) const {
+  if (!p_) return {};
+  return p_->of_entry(parameter);
+}
+
+/// Adds the derivatives of a value that a function reads, times that of the function by the value.
+void FlowChain::add(const ReadValue& read, double value, Index row, Eigen::MatrixXd& by) const {
+  if (read.space == Space::x) by(row, read.index) += value;
+  if (read.space == Space::z) by.row(row) += value * z_.row(read.index);
+  if (read.space == Space::y) by.row(row) += value * y_.row(read.index);
+  if (read.space != Space::p) return;
+  const Index first = machine_.plan().nx;
+  for (const auto& column : columns_of(read.index))
+    by(row, first + column.number) += value * column.by;
 }
 
 Eigen::MatrixXd FlowChain::derivative(const LeafFunction& function, double t) {
@@ -137,12 +143,9 @@ Eigen::MatrixXd FlowChain::derivative(const LeafFunction& function, double t) {
       of_called_.of(function, t, [this](const ReadValue& read) { return moves(read); });
   if (!of_called_.obstacle().empty() && obstacle_.empty()) obstacle_ = of_called_.obstacle();
   Eigen::MatrixXd by = Eigen::MatrixXd::Zero(function.size, count_);
-  for (Index k = 0; k < each.cols(); ++k) {
-    if (each.col(k).isZero(0.0)) continue;
-    const Eigen::RowVectorXd row = row_of(nth(function.reads, k));
+  for (Index k = 0; k < each.cols(); ++k)
     for (Index i = 0; i < function.size; ++i)
-      if (each(i, k) != 0.0) by.row(i) += each(i, k) * row;
-  }
+      if (each(i, k) != 0.0) add(nth(function.reads, k), each(i, k), i, by);
   return by;
 }
 
@@ -156,7 +159,7 @@ Eigen::MatrixXd FlowChain::exact(const LeafFunction& function, double t) {
     const auto& [i, number] = partials.entries[e];
     const ReadValue& read = function.reads[number];
     const double value = values[function.size + static_cast<Index>(e)];
-    if (value != 0.0 && moves(read)) by.row(i) += value * row_of(read);
+    if (value != 0.0 && moves(read)) add(read, value, i, by);
   }
   return by;
 }

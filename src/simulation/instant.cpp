@@ -32,7 +32,7 @@ void Instant::open(double t, const std::vector<int>& due, double longest) {
   flow_.forget();  // it belongs to x-
   for (const int event : due)
     present_.actions.push_back({plan().scheduled(event).leaf, Cause::time, event, -1, 0, false});
-  if (Tangents* tangents = transition_.tangents()) tangents->open(present_, due);
+  if (Tangents* tangents = transition_.tangents()) tangents->open(present_, due, waiting_due());
 }
 
 Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool at_start) {

@@ -30,6 +30,14 @@ void Instant::open_queues() {
   due_before_ = next_due_;
 }
 
+/// What is due at the begin of this instant, and the event that it follows from.
+std::vector<DueNow> Instant::waiting_due() {
+  std::vector<DueNow> all;
+  if (deliveries_.any()) deliveries_.add_due(all);
+  if (executions_.any()) executions_.add_due(all);
+  return all;
+}
+
 void Instant::find_next_due() {
   if (!may_wait()) return;
   next_due_ = deliveries_.next();

@@ -60,7 +60,7 @@ void IslandMerger::renew(double since) {
   }
   for (std::size_t k = 0; k < islands_->count(); ++k) {
     IslandResults& island = results_->islands.emplace_back();
-    island.name = plan_->leaf(islands_->first[k]).path, island.blocks = islands_->leaves[k].size();
+    island.name = plan_->leaf(islands_->first[k]).path, island.blocks = islands_->blocks(k);
   }
   tangents_.renew(since);
   results_->trajectory = {};

@@ -17,7 +17,6 @@ using Clock = std::chrono::steady_clock;
 void IslandRuns::initialize(const Context& context) {
   require_context_of(*plan_, context);
   require_fits(context);
-  chosen_entries(options_.sensitivity, context.layout());  // throws for a parameter of a diagram
   begin_ = {};  // no run, if an island refuses its values
   const Context known = context.with_computed(plan_->computed);
   std::vector<int> jumps;

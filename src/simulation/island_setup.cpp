@@ -88,7 +88,7 @@ void IslandRuns::add_island(std::size_t k, const SimulatorOptions& options,
 std::string IslandRuns::describe() const {
   std::string out = plan_->describe() + islands_.describe();
   for (std::size_t k = 0; k < std::min<std::size_t>(all_.size(), 3); ++k)
-    out += text("  island of '", results_.islands[k].name, "': ", islands_.leaves[k].size(),
+    out += text("  island of '", results_.islands[k].name, "': ", islands_.blocks(k),
                 " of the blocks; ", all_[k].run->describe());
   return out + (all_.size() > 3 ? "  ...\n" : "");
 }

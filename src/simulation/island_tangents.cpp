@@ -30,6 +30,7 @@ Layout IslandTangents::layout_of(const Plan& plan) {
   for (const PlanLeaf& leaf : plan.leaves)
     layout.leaves.push_back({leaf.path, leaf.x, leaf.nx, leaf.z, leaf.nz, leaf.p, leaf.np,
                              leaf.declared().parameters, leaf.declared().continuous.names});
+  layout.computed = plan.computed;
   return layout;
 }
 

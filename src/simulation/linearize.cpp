@@ -5,6 +5,7 @@
 
 #include "linear_limits.hpp"
 #include "linear_names.hpp"
+#include "linear_parameters.hpp"
 #include "saltus/model/context_entry.hpp"
 #include "saltus/plan/detail/fixed_inputs.hpp"
 #include "saltus/simulation/detail/given_inputs.hpp"
@@ -63,7 +64,8 @@ class Linearizer::Parts {
         layout_(system.create_context()) {
     options_.refinement.reset();
     require_no_history(plan());
-    columns_ = {List<Index>(plan().np, Index{-1}), List<Index>(plan().ny, Index{-1}), plan().nx};
+    parameters_ = LinearParameters(plan().computed);
+    columns_ = {ParameterMoves(plan().np), List<Index>(plan().ny, Index{-1}), plan().nx};
     for (const LinearInput& input : options_.inputs) add(input);
     rule_.emplace(at_.machine(), columns_);
     for (const Tap& tap : plan().taps) {
@@ -73,7 +75,8 @@ class Linearizer::Parts {
   }
 
   Linearization at(const Context& context) {
-    at_.begin(with_values(context));
+    at_.begin(parameters_.written(context));
+    rule_->set_parameters(parameters_.moves(at_.machine().p));
     const LinearLimits limits(at_, *rule_);
     limits.require_motion();
     rule_->at(at_.time(), {});
@@ -110,11 +113,15 @@ class Linearizer::Parts {
       throw ModelError(text("linearize: '", input.name,
                             "' is a state or a mode; expected an open input of the system or a "
                             "parameter; A has the derivatives by the continuous states"));
-    require_differentiable(entry, text("linearize: ", input.name));
-    if (input.value)
-      write_entry(layout_, entry, {input.value->data(), size_of(*input.value)}, input.name);
-    add_columns(input.name, columns_.of_parameter, entry.first, {entry.size, entry.size > 1, 0});
-    parameters_.push_back({input, entry});
+    LinearParameters::write(layout_, input, entry);  // refuses a wrong number of values
+    require_once(!parameters_.has(entry), input.name);
+    parameters_.add({input, entry, columns_.size});
+    columns_.size += entry.size;
+    add_entries(inputs_, input.name, {entry.size, entry.size > 1, 0});
+  }
+
+  static void require_once(bool once, const std::string& name) {
+    if (!once) throw ModelError(text("linearize: input '", name, "' is named twice"));
   }
 
   /// Adds the open inputs to the names of an unknown one.
@@ -128,25 +135,12 @@ class Linearizer::Parts {
     }
   }
 
-  static std::size_t size_of(const Eigen::VectorXd& values) {
-    return static_cast<std::size_t>(values.size());
-  }
-
   void add_columns(const std::string& name, List<Index>& of, Index first, const Shape& shape) {
     for (Index i = 0; i < shape.size; ++i) {
-      if (of[first + i] >= 0)
-        throw ModelError(text("linearize: input '", name, "' is named twice"));
+      require_once(of[first + i] < 0, name);
       of[first + i] = columns_.size++;
     }
     add_entries(inputs_, name, shape);
-  }
-
-  Context with_values(const Context& context) const {
-    Context with = context;
-    for (const auto& [input, entry] : parameters_)
-      if (input.value)
-        write_entry(with, entry, {input.value->data(), size_of(*input.value)}, input.name);
-    return with;
   }
 
   Linearization matrices() {
@@ -173,11 +167,11 @@ class Linearizer::Parts {
   Eigen::VectorXd input_values() {
     const Index n = plan().nx;
     Eigen::VectorXd u(columns_.size - n);
-    const auto take = [&](const List<Index>& columns, const Eigen::VectorXd& values) {
-      for (Index i = 0; i < values.size(); ++i)
-        if (columns[i] >= 0) u[columns[i] - n] = values[i];
-    };
-    take(columns_.of_parameter, at_.machine().p), take(columns_.of_signal, at_.machine().y);
+    for (Index i = 0; i < plan().ny; ++i)
+      if (columns_.of_signal[i] >= 0) u[columns_.of_signal[i] - n] = at_.machine().y[i];
+    for (const LinearParameters::One& one : parameters_.all())
+      u.segment(one.column - n, one.entry.size) =
+          at_.machine().p.segment(one.entry.first, one.entry.size);
     return u;
   }
 
@@ -212,17 +206,13 @@ class Linearizer::Parts {
     }
   }
 
-  struct Parameter {
-    LinearInput input;
-    ContextEntry entry;
-  };
   LinearizeOptions options_;
   GivenInputs system_;
   Standstill at_;
   Context layout_;  // to find names
   LinearColumns columns_;
   std::optional<ChainRule> rule_;
-  std::vector<Parameter> parameters_;
+  LinearParameters parameters_;
   std::vector<std::string> inputs_, outputs_;
 };
 

@@ -17,18 +17,6 @@ std::string obstacle_of(const Plan& plan) {
   if (!plan.histories.empty())
     return text("block '", plan.leaf(plan.histories.front()).path,
                 "' keeps a history of its input, which has no derivative here");
-  if (plan.event_wires.any()) {
-    const EventWire& wire = plan.event_wires.declared.front();
-    return text("an event wire leads to block '", plan.leaf(wire.to).path,
-                "', and deliveries have no derivative here");
-  }
-  for (const GuardGroup& group : plan.guards) {
-    if (!group.queued) continue;
-    const ZeroCrossing& crossing = plan.crossing_of(group);
-    if (crossing.delay || crossing.use_values_from_trigger_time.value_or(false))
-      return text("the queued zero crossing '", group.name,
-                  "' has a delay, or values from its trigger time");
-  }
   return {};
 }
 
@@ -39,7 +27,6 @@ std::vector<SensitivityEntry> chosen_entries(const std::vector<std::string>& nam
   std::vector<SensitivityEntry> all;
   for (const std::string& name : names) {
     const ContextEntry entry = find_entry(layout, name);
-    require_differentiable(entry, text("option sensitivity: ", name));
     if (entry.kind == ContextEntry::Kind::mode)
       throw ModelError(text("option sensitivity: '", name,
                             "' is a mode, an integer, so nothing has a derivative with respect to "

@@ -105,8 +105,7 @@ void TangentFlow::exact_at(double t, const double* x, const TangentColumns& colu
     if (kind == Variable::z) by.row(row) += value * columns.z.row(index);
     if (kind == Variable::y) by.row(row) += value * columns.y.row(index);
     if (kind != Variable::p) continue;
-    for (Index k = 0; k < columns.size(); ++k)
-      if (nth(columns.parameters, k) == index) by(row, k) += value;
+    for (const auto& column : columns.by_entry(index)) by(row, column.number) += value * column.by;
   }
 }
 
@@ -162,8 +161,8 @@ GuardTangent TangentFlow::exact_guard(double t, const double* x, Index row,
       found.columns += value * columns.t;
     }
     if (kind != Variable::p) continue;
-    for (Index k = 0; k < columns.size(); ++k)
-      if (nth(columns.parameters, k) == index) found.columns[k] += value;
+    for (const auto& column : columns.by_entry(index))
+      found.columns[column.number] += value * column.by;
   }
   return found;
 }

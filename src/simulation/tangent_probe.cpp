@@ -62,8 +62,9 @@ double TangentProbe::shift_of(const double* x, const TangentDirection& along, do
   look(along.x, sizes_.x, x);
   look(along.z, sizes_.z, machine_->z.data());
   look(along.y, sizes_.y, machine_->y.data());
-  if (along.parameter >= 0 && !std::isnan(most))
-    most = std::max(most, in_sizes(1.0, std::max(std::abs(machine_->p[along.parameter]), least)));
+  for (const ParameterMove& move : along.p)
+    if (!std::isnan(most))
+      most = std::max(most, in_sizes(move.by, std::max(std::abs(machine_->p[move.entry]), least)));
   return most > 0.0 ? 1.0 / most : most;
 }
 
@@ -138,7 +139,7 @@ Machine& TangentProbe::at(const double* x, const TangentDirection& along, double
   move(machine_->z.data(), along.z, probe_.z);
   move(machine_->y.data(), along.y, probe_.y);
   move(machine_->p.data(), nullptr, probe_.p);
-  if (along.parameter >= 0) probe_.p[along.parameter] += shift;
+  for (const ParameterMove& one : along.p) probe_.p[one.entry] += shift * one.by;
   if (probe_.modes != machine_->modes || probe_.seen_guards().outdated()) {
     probe_.modes = machine_->modes;
     probe_.select_guards();

@@ -15,7 +15,14 @@ constexpr double no_derivative = std::numeric_limits<double>::quiet_NaN();
 /// The rounding of a sum such as dg/dx f + dg/dt, in parts of its terms.
 constexpr double sum_rounding = 1e3 * thresholds::eps;
 
+/// Derivatives that differ by no more than this part are the same, see `moves_apart`.
+constexpr double same_time = 1e-6;
+
 }  // namespace
+
+bool moves_apart(double a, double b) {
+  return std::abs(a - b) > same_time * std::max(std::abs(a), std::abs(b));
+}
 
 MovedTime TangentTimes::of(const Firing& firing, bool jumped, const TangentColumns& until,
                            double t) {

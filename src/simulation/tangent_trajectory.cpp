@@ -30,7 +30,7 @@ std::size_t TangentTrajectory::hold(const TangentColumns& at, const RestingState
   const bool known = !std::exchange(stale_, false) && same(held_.back().columns.z, at.z) &&
                      same(held_.back().columns.y, at.y) && same(held_.back().columns.t, at.t);
   if (known) return held_.size() - 1;
-  Held now{{{}, at.z, at.y, at.t, at.parameters}, List<char>(at.x.rows())};
+  Held now{{{}, at.z, at.y, at.t, at.p}, List<char>(at.x.rows())};
   for (Index i = 0; i < at.x.rows(); ++i) now.rests[i] = resting.rests(i);
   held_.push_back(std::move(now));
   return held_.size() - 1;

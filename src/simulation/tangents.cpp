@@ -14,6 +14,13 @@ namespace {
 /// [eps t] Shorter steps say nothing about the scale of time: a thousandth of a step is then a rounding.
 constexpr double least_step = 1e6;
 
+std::shared_ptr<const ParameterMoves> moves_of(const std::vector<ParameterDirection>& directions,
+                                               Index np) {
+  auto all = std::make_shared<ParameterMoves>(np);
+  for (Index k = 0; k < std::ssize(directions); ++k) all->add(k, nth(directions, k).moves);
+  return all;
+}
+
 }  // namespace
 
 Tangents::Tangents(const Machine& machine, const GuardSet& guards, const SimulatorOptions& options,
@@ -22,6 +29,7 @@ Tangents::Tangents(const Machine& machine, const GuardSet& guards, const Simulat
       guards_(&guards),
       options_(&options),
       results_(&results),
+      computed_(machine.plan().computed),
       probe_(machine),
       flow_(machine, probe_),
       jumps_(flow_, probe_),
@@ -43,12 +51,12 @@ void Tangents::begin(const Context& start) {
   const Plan& plan = machine_->plan();
   std::vector<std::string> names;
   columns_.x.setZero(plan.nx, m), columns_.z.setZero(plan.nz, m), columns_.y.setZero(plan.ny, m);
-  columns_.parameters.assign(all.size(), -1);
+  const std::vector<ParameterDirection> directions = directions_of(all, start);
+  columns_.p = moves_of(directions, plan.np);
   Eigen::MatrixXd atol(plan.nx, m);
   for (Index k = 0; k < m; ++k) {
     const Kind kind = nth(all, k).entry.kind;
     const Index i = nth(all, k).entry.first;
-    if (kind == Kind::parameter) nth(columns_.parameters, k) = i;
     if (kind == Kind::continuous_state) columns_.x(i, k) = 1.0;
     if (kind == Kind::discrete_state) columns_.z(i, k) = 1.0;
     names.push_back(nth(all, k).name);
@@ -62,10 +70,13 @@ void Tangents::begin(const Context& start) {
   rows_.begin(std::move(names));
   variation_.emplace(Variation::Tolerances{options_->rtol.smallest(), std::move(atol)});
   columns_.t.setZero(m);
+  waits_.begin(m), guard_sizes_.setZero(machine_->plan().look_slots);
   jumps_.begin(plan.nx), gaps_.begin(), events_.begin(), one_sided_.begin();
   t_ = start.time(), phase_ = Phase::between;
   probe_.begin(), probe_.note(machine_->x.data(), 0.0);
-  begin_signals(start);
+  begin_signals(start.with_computed(plan.computed));
+  for (Index k = 0; k < m; ++k)
+    if (const std::string& why = nth(directions, k).obstacle; !why.empty()) lose(k, "", why);
   open_trajectory();
 }
 
@@ -79,19 +90,31 @@ void Tangents::open_trajectory() {
     results_->sensitivities.trajectory.open(t_, columns_, machine_->resting(), probe_.sizes());
 }
 
+/// How the parameters of all blocks move with each column, at the values of the start.
+std::vector<ParameterDirection> Tangents::directions_of(const std::vector<SensitivityEntry>& all,
+                                                        const Context& start) {
+  std::vector<ParameterDirection> directions;
+  for (const SensitivityEntry& one : all) {
+    const bool parameter = one.entry.kind == ContextEntry::Kind::parameter;
+    directions.push_back(parameter ? computed_.by(one.entry.first, start.parameters())
+                                   : ParameterDirection());
+  }
+  return directions;
+}
+
 /// The constant outputs follow the parameters, and the held ones the states too.
 void Tangents::begin_signals(const Context& start) {
   for (Index k = 0; k < size(); ++k) {
-    const Index parameter = nth(columns_.parameters, k);
-    if (parameter < 0) continue;
+    const std::span<const ParameterMove> moves = columns_.moves(k);
+    if (moves.empty()) continue;
     const auto read = [&](Machine& probe, double shift, double* out) {
       ContextValues values = start.values();
-      values.parameters[parameter] += shift;
+      for (const ParameterMove& move : moves) values.parameters[move.entry] += shift * move.by;
       values.continuation = nullptr, values.pending = nullptr;
       probe.load(start.with_values(values));
       std::copy_n(probe.y.data(), probe.y.size(), out);
     };
-    probe_.derivative(machine_->x.data(), {.parameter = parameter}, machine_->y.size(), read,
+    probe_.derivative(machine_->x.data(), {.p = moves}, machine_->y.size(), read,
                       columns_.y.col(k).data());
   }
   clear_truths();

@@ -1,37 +1,21 @@
 // Tangents: across an instant.
 #include <algorithm>
 #include <cmath>
-#include <new>
 
-#include "saltus/simulation/detail/declared_derivatives.hpp"
 #include "saltus/simulation/detail/tangents.hpp"
 
 namespace saltus {
 
 namespace {
 
-/// Two causes have one time for all values of a parameter if its derivatives differ by no more than
-/// this part. The differences of called functions have errors of 1e-10 (see TangentProbe), which a
-/// slow crossing amplifies.
-constexpr double same_time = 1e-6;
 /// A column of a guard that is smaller than this part of its terms is zero: the columns of guards that
 /// fire together vanish up to the errors of differences (see TangentProbe).
 constexpr double column_rounding = 1e-6;
-/// The rounding of a guard's value, in parts of its terms and of their movement in a rounding of time.
-constexpr double guard_rounding = 1e3 * thresholds::eps;
-
-/// The declared derivatives of a reset map; null if there are none.
-const DerivativesFunction* derivatives_of(const PlanLeaf& leaf, const Transition::Call& call) {
-  for (const ZeroCrossing& crossing : leaf.declared().zero_crossings)
-    if (&crossing.reset_map == call.map && crossing.reset_derivatives)
-      return &crossing.reset_derivatives;
-  return nullptr;
-}
-
 }  // namespace
 
 /// Opens an instant, whose time moves as its causes do.
-void Tangents::open(const Present& present, const std::vector<int>& due) {
+void Tangents::open(const Present& present, const std::vector<int>& due,
+                    const std::vector<DueNow>& waiting) {
   t_ = present.t, phase_ = Phase::opened;
   const double* x = machine_->x.data();
   before_ = columns_;
@@ -49,6 +33,11 @@ void Tangents::open(const Present& present, const std::vector<int>& due) {
     merge(times_.of(machine_->plan().scheduled(event), until), first);
     first = false;
   }
+  for (const DueNow& one : waiting) {
+    merge({.by = waits_.time_of(one.key), .event = one.event}, first);
+    first = false;
+  }
+  look_beside(present, until, f, first);
   if (first) cause_.reset();
   if (first) columns_.t.setZero();
   columns_.x += f * (columns_.t - until.t);
@@ -64,75 +53,15 @@ void Tangents::merge(const MovedTime& moved, bool first) {
     } else if (first) {
       columns_.t[k] = moved.by[k];
       if (std::isnan(moved.by[k])) lose(k, moved.event, moved.doubt);
-    } else if (std::abs(columns_.t[k] - moved.by[k]) >
-               same_time * std::max(std::abs(columns_.t[k]), std::abs(moved.by[k]))) {
+    } else if (std::isnan(moved.by[k]) && !gaps_.lost(k)) {
+      lose(k, moved.event, moved.doubt);
+    } else if (moves_apart(columns_.t[k], moved.by[k])) {
       lose(k, moved.event, "another event happens at the same time, and their order would change");
     }
   }
 }
 
 // --- the passes
-
-/// The derivative of what a reset map or an update writes.
-void Tangents::call(const Transition::Call& call, const double* x_next, const double* z_next,
-                    int mode) {
-  const PlanLeaf& leaf = machine_->plan().leaf(call.leaf);
-  if (const DerivativesFunction* declared = derivatives_of(leaf, call))
-    return call_declared(call, *declared, x_next, z_next, mode);
-  Eigen::VectorXd x(leaf.nx), z(leaf.nz), out(leaf.nx + leaf.nz);
-  for (Index k = 0; k < size(); ++k) {
-    const auto read = [&](Machine& probe, double shift, double* to) {
-      for (Index i = 0; i < leaf.nx; ++i)
-        x[i] = x_next[leaf.x + i] + shift * next_x_(leaf.x + i, k);
-      for (Index i = 0; i < leaf.nz; ++i)
-        z[i] = z_next[leaf.z + i] + shift * next_z_(leaf.z + i, k);
-      At at = probe.at(call.leaf, call.t + shift * columns_.t[k], probe.x.data());
-      at.entry = call.entry, at.mode = mode;
-      if (call.before) at.u = inputs_before_.moved(probe, call.leaf, k, shift);
-      new (&at.x) VectorView(x.data(), leaf.nx);
-      new (&at.z) VectorView(z.data(), leaf.nz);
-      const VectorRef to_x(to, leaf.nx), to_z(to + leaf.nx, leaf.nz);
-      std::copy_n(x.data(), leaf.nx, to), std::copy_n(z.data(), leaf.nz, to + leaf.nx);
-      int entered = mode;
-      Next next(to_x, to_z, entered, leaf.path);
-      (*call.map)(*leaf.system, at, next);
-    };
-    probe_.derivative(machine_->x.data(), columns_.column(k), out.size(), read, out.data());
-    next_x_.col(k).segment(leaf.x, leaf.nx) = out.head(leaf.nx);
-    next_z_.col(k).segment(leaf.z, leaf.nz) = out.tail(leaf.nz);
-  }
-}
-
-/// The same by declared derivatives. The inputs are those of the state before the pass.
-void Tangents::call_declared(const Transition::Call& call, const DerivativesFunction& derivatives,
-                             const double* x_next, const double* z_next, int mode) {
-  const PlanLeaf& leaf = machine_->plan().leaf(call.leaf);
-  Machine& probe = probe_.at(machine_->x.data());
-  At at = probe.at(call.leaf, call.t, probe.x.data());
-  at.entry = call.entry, at.mode = mode;
-  new (&at.x) VectorView(x_next + leaf.x, leaf.nx);
-  new (&at.z) VectorView(z_next + leaf.z, leaf.nz);
-  const Eigen::MatrixXd by = declared_derivatives(leaf, derivatives, at, leaf.nx + leaf.nz,
-                                                  text("the reset map of '", call.source, "'"));
-  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(by.cols(), size());
-  each_column(leaf, [&](Index column, const Place& place) {
-    const bool own = column < leaf.nx + leaf.nz;
-    for (Index k = 0; k < size(); ++k) {
-      if (place.space == Space::x)
-        values(column, k) = (own ? next_x_ : columns_.x)(place.offset, k);
-      else if (place.space == Space::z)
-        values(column, k) = (own ? next_z_ : columns_.z)(place.offset, k);
-      else if (place.space == Space::p)
-        values(column, k) = nth(columns_.parameters, k) == place.offset ? 1.0 : 0.0;
-      else
-        values(column, k) = columns_.y(place.offset, k);
-    }
-  });
-  values.bottomRows(1) = columns_.t;
-  const Eigen::MatrixXd next = by * values;
-  next_x_.middleRows(leaf.x, leaf.nx) = next.topRows(leaf.nx);
-  next_z_.middleRows(leaf.z, leaf.nz) = next.bottomRows(leaf.nz);
-}
 
 void Tangents::commit() {
   columns_.x = next_x_, columns_.z = next_z_;
@@ -180,10 +109,7 @@ void Tangents::look_at_firings(const Present& present) {
     if (!group.is_crossing()) continue;
     const GuardTangent guard =
         flow_.guard(t_, machine_->x.data(), static_cast<Index>(number), columns_);
-    const double rounding =
-        guard_rounding *
-        guard.by_state.cwiseAbs().dot(
-            machine_->x.cwiseAbs() + std::abs(t_) * probe_.flow(t_, machine_->x.data()).cwiseAbs());
+    const double rounding = rounding_of(guard, probe_.flow(t_, machine_->x.data()));
     if (std::abs(present.g[number]) > std::max((*guards_)[number].error, rounding)) continue;
     for (Index k = 0; k < size(); ++k) {
       const double terms = guard.by_state.cwiseAbs().dot(columns_.x.col(k).cwiseAbs());

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "saltus/simulation/detail/tangents.hpp"
+#include "saltus/simulation/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -19,6 +20,12 @@ constexpr double same_flow = 1e-9;
 constexpr double bend_shift = 1e-6;
 /// Two slopes of the flow are the same if they differ by no more than this part.
 constexpr double same_slope = 1e-3;
+
+/// The rounding of a guard's value, in parts of its terms and of their movement in a rounding of time.
+constexpr double guard_rounding = 1e3 * thresholds::eps;
+/// [of the largest value of a guard in the run] A guard that is farther from zero is not beside an
+/// event: its rounding is far below, unless its terms cancel to a billionth.
+constexpr double beside_event = 1e-9;
 
 /// Whether a guard that moves from zero with this slope would fire if it came from the other side.
 bool fires_along(Direction direction, double slope) {
@@ -40,6 +47,44 @@ void Tangents::look_at_waiting() {
   const Eigen::VectorXd flow = probe_.flow(t_, machine_->x.data());
   for (const std::size_t k : active)
     if (waits(k) && !(*guards_)[k].monitor) look_at_waiting(k, flow);
+}
+
+double Tangents::rounding_of(const GuardTangent& guard, const Eigen::VectorXd& flow) const {
+  return guard_rounding *
+         guard.by_state.cwiseAbs().dot(machine_->x.cwiseAbs() + std::abs(t_) * flow.cwiseAbs());
+}
+
+/// A guard may be about to fire, within the rounding of its value, where a time event or a delivery
+/// happens. It would fire at this time too: the order of both is that of their roundings.
+void Tangents::look_beside(const Present& present, const TangentColumns& until,
+                           const Eigen::VectorXd& flow, bool first) {
+  if (guards_->active().all.empty()) return;
+  Machine& probe = probe_.at(machine_->x.data());
+  Eigen::VectorXd g(machine_->plan().look_slots);
+  probe.guards_at(t_, probe.x.data(), g.data());
+  for (const std::size_t k : guards_->active().all) {
+    const Guard& guard = (*guards_)[k];
+    const auto slot = static_cast<Index>(k);
+    guard_sizes_[slot] = std::max(guard_sizes_[slot], std::abs(g[slot]));
+    const bool may_fire =
+        !first && present.firings.empty() && !guard.monitor && guard.phase == saltus::Phase::armed;
+    if (may_fire && std::abs(g[slot]) <= beside_event * guard_sizes_[slot])
+      look_beside(k, g[slot], until, flow);
+  }
+}
+
+void Tangents::look_beside(std::size_t number, double g, const TangentColumns& until,
+                           const Eigen::VectorXd& flow) {
+  const GuardGroup& group = machine_->plan().guard((*guards_)[number].group);
+  if (!group.is_crossing() || group.is_opaque()) return;
+  const auto slot = static_cast<Index>(number);
+  const double* x = machine_->x.data();
+  const GuardTangent guard = flow_.guard(t_, x, slot, until);
+  const double slope = guard.by_state.dot(flow) + guard.by_time;
+  const bool nears =
+      fires((*guards_)[number].direction, (*guards_)[number].side, slope < 0.0 ? -1 : 1);
+  if (nears && std::abs(g) <= rounding_of(guard, flow))
+    merge(times_.of_crossing(slot, group.name, t_, x, until), false);
 }
 
 void Tangents::look_at_waiting(std::size_t number, const Eigen::VectorXd& flow) {

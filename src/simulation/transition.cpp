@@ -116,6 +116,7 @@ void Transition::deliver(const Arrival& arrival) {
   const PlanLeaf& of = machine_->plan().leaf(arrival.leaf);
   int& to = modes_next_[arrival.leaf];
   const int mode = to;
+  if (tangents_ != nullptr) tangents_->deliver(arrival, seen_by(arrival.leaf, arrival.entry));
   count(arrival.leaf,
         receive(arrival, {x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, to));
   wrote_mode_ = wrote_mode_ || to != mode;
@@ -139,7 +140,7 @@ bool Transition::run(const Call& call) {
   const PlanLeaf& of = machine_->plan().leaf(call.leaf);
   int& to = modes_next_[call.leaf];
   const int mode = to;
-  if (tangents_ != nullptr) tangents_->call(call, x_next_.data(), z_next_.data(), mode);
+  if (tangents_ != nullptr) tangents_->call(call, seen_by(call.leaf, call.entry));
   const Wrote wrote =
       apply(call, {x_next_.data() + of.x, of.nx}, {z_next_.data() + of.z, of.nz}, to);
   count(call.leaf, wrote);

@@ -99,18 +99,6 @@ TEST_CASE("a delivery that sets a state that is not finite names block, input an
       "t = 1 s: 'cell.in' set a state that is not finite"));
 }
 
-TEST_CASE("sensitivity refuses event wires by name", "[errors]") {
-  Network net;
-  net.add(cell("a", 2.0)), net.add(cell("b", 0.0));
-  net.wire("a", "fire", "b", "synapse");
-  const Diagram diagram = net.builder.build();
-  CHECK(contains(message<ModelError>([&] {
-                   simulate(diagram, diagram.create_context(), {0.0, 2.0},
-                            {.sensitivity = {"a.x[0]"}});
-                 }),
-                 "an event wire leads to block 'b', and deliveries have no derivative here"));
-}
-
 TEST_CASE("a delivery that waits in a context has to fit the system", "[errors]") {
   Network net;
   net.add(beats("beats", {1.0})), net.add(digits("digits"));

@@ -13,11 +13,8 @@ namespace {
 
 /// Two states, a discrete state and a signal, with derivatives of 1 by the parameters g and e.
 struct TwoColumns {
-  TangentColumns columns{Eigen::MatrixXd::Ones(2, 2),
-                         Eigen::MatrixXd::Ones(1, 2),
-                         Eigen::MatrixXd::Ones(1, 2),
-                         Eigen::RowVectorXd::Ones(2),
-                         {0, 1}};
+  TangentColumns columns{Eigen::MatrixXd::Ones(2, 2), Eigen::MatrixXd::Ones(1, 2),
+                         Eigen::MatrixXd::Ones(1, 2), Eigen::RowVectorXd::Ones(2), nullptr};
   Results results;
   TangentGaps gaps{columns, results};
 

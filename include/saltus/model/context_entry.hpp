@@ -29,10 +29,6 @@ std::vector<std::string> entry_names(const Layout& layout);
 /// Throws ModelError for an unknown name, with the nearest one, and for an index out of range.
 ContextEntry find_entry(const Layout& layout, std::string_view name);
 
-/// Throws ModelError for a parameter of a diagram: nothing is differentiated by it, but by the
-/// parameters that are computed from it.
-void require_differentiable(const ContextEntry& entry, std::string_view what);
-
 /// Throws ModelError unless the entry takes so many values: as many as it has. One value fills a
 /// parameter, but not several states.
 void require_width(const ContextEntry& entry, Index given, std::string_view name);

@@ -27,12 +27,18 @@ struct Islands {
   List<int> first;                            ///< of each island: its first block, copies left out
   std::vector<std::vector<int>> taps;         ///< of each island: its recorded signals
   std::vector<std::vector<int>> event_wires;  ///< of each island, if there are any
+  /// Of each island: the parameters that diagrams compute for it, if there are any. The diagrams are
+  /// among its leaves, as copies.
+  std::vector<std::vector<int>> computed;
   /// The island of each leaf; of a copied source the first of its islands, if it has events or is
   /// recorded, otherwise -1; -1 also for a leaf in no island.
   List<int> of_leaf;
-  std::vector<Join> joins;  ///< the block that joins most parts first
+  List<std::size_t> diagrams;  ///< of each island: the diagrams whose parameters it has
+  std::vector<Join> joins;     ///< the block that joins most parts first
 
   std::size_t count() const { return leaves.size(); }
+  /// The number of blocks in an island. The parameters of a diagram are no block.
+  std::size_t blocks(std::size_t k) const { return leaves[k].size() - nth(diagrams, k); }
   /// The number of islands, and the blocks that join.
   std::string describe() const;
 };

@@ -106,12 +106,6 @@ def test_a_block_that_a_control_signal_executes():
         saltus.simulate(diagram, time_span=(0.0, 2.0))
 
 
-def test_sensitivity_is_refused_by_name():
-    scene = wired(Cell("a", 100.0), Cell("b", 0.0), wires=[("a.fire", "b.synapse")])
-    with pytest.raises(saltus.ModelError, match="an event wire leads to block 'b'"):
-        saltus.simulate(scene, time_span=(0.0, 0.05), sensitivity=["a.current"])
-
-
 def test_a_context_with_deliveries_of_another_system():
     scene = wired(Beats(1.0), Digits(), wires=[("beats.beat", "digits.digit", 1.0, 5.0)])
     cut = saltus.simulate(scene, time_span=(0.0, 2.0)).context

@@ -32,9 +32,11 @@ class Throw(saltus.LeafSystem):
 class Room(saltus.LeafSystem):
     """A thermostat in two modes: 0 cools, 1 heats."""
 
-    def __init__(self):
+    VALUES = {"low": 19.0, "high": 21.0, "outside": 10.0, "heater": 40.0}
+
+    def __init__(self, **values):
         super().__init__(name="room")
-        for name, value in {"low": 19.0, "high": 21.0, "outside": 10.0, "heater": 40.0}.items():
+        for name, value in (self.VALUES | values).items():
             self.declare_dynamic_parameter(name, value)
         self.declare_continuous_state([20.0], ode=self.ode)
         self.declare_default_mode(1)

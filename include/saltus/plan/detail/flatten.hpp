@@ -234,13 +234,13 @@ inline void add_places(Plan& plan) {
 inline Plan flatten(const System& system, const Replacements& replacements = {}) {
   Structure structure = structure_of(system);
   Plan plan;
+  plan.computed = computed_parameters(structure);  // before the paths of the leaves are moved away
   add_leaves(plan, structure, replacements);
   const LeafNumbers numbers(plan);
   add_wires(plan, structure, numbers);
   if (!structure.controlled.empty()) add_controls(plan, structure, numbers);
   if (!structure.event_wires.empty()) add_event_wires(plan, structure, numbers);
   add_needs(plan);
-  plan.computed = computed_parameters(structure);
   return plan;
 }
 

@@ -25,12 +25,8 @@ struct LeafPartials {
     Index row = 0;
     std::size_t read = 0;  ///< its number among the values that the function reads
   };
-  /// A switch is at its limit where a = b: the operands of a comparison, or an operand of abs, and
-  /// zero. `scale` is the sum of the terms of a difference, |p| + |q| of p - q.
-  static constexpr Index numbers_of_switch = 3;  ///< a, b, scale
-
   std::vector<Entry> entries;
-  Index switches = 0;
+  Index switches = 0;  ///< the number of switches, see tape/switches.hpp
   tape::Tape tape;
 };
 

@@ -43,6 +43,7 @@ class CalledDerivatives {
   Machine* machine_;
   TangentProbe* probe_;
   Eigen::VectorXd unit_x_, unit_z_, unit_y_;
+  ParameterMove unit_p_;
   bool differenced_ = false;
   std::string obstacle_;
 };

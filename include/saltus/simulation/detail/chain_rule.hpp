@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "saltus/base/list.hpp"
@@ -14,9 +15,9 @@ namespace saltus {
 
 /// The values by which ChainRule differentiates: all continuous states, then these.
 struct LinearColumns {
-  List<Index> of_parameter;  ///< the column of each parameter, or -1
-  List<Index> of_signal;     ///< the column of each entry of y that is a fixed input, or -1
-  Index size = 0;            ///< the number of columns
+  ParameterMoves parameters;  ///< of each column that is a parameter
+  List<Index> of_signal;      ///< the column of each entry of y that is a fixed input, or -1
+  Index size = 0;             ///< the number of columns
 };
 
 /// Multiplies the derivatives of the functions of a plan along its wires (the chain rule, forward: A.
@@ -34,6 +35,8 @@ class ChainRule {
     int node = -1;
     Index entry = 0;
   };
+  /// Parameters of blocks move so from now on.
+  void set_parameters(ParameterMoves moves) { columns_.parameters = std::move(moves); }
   /// Computes all of them at (t, x) of the machine.
   void at(double t, const Forced& forced);
 
@@ -91,12 +94,7 @@ class ChainRule {
   Eigen::MatrixXd derivative(const LeafFunction& function);
   Eigen::MatrixXd exact(const LeafFunction& function);
   Eigen::MatrixXd differences(const LeafFunction& function);
-  bool has_switch_here(const LeafPartials& partials, Index size) const;
   bool has_kink(const LeafFunction& function);
-  struct Sides {
-    Eigen::VectorXd misfit, size;
-  };
-  Sides sides(const LeafFunction& function, const ReadValue& read, double shift);
   double value_of(const ReadValue& read) const;
   TangentDirection along(const ReadValue& read) { return of_called_.along(read); }
 };

@@ -1,11 +1,13 @@
 // Deliveries: what event wires carry from the event of one leaf to the reset map of another.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "saltus/model/context.hpp"
 #include "saltus/simulation/detail/delivery_queue.hpp"
 #include "saltus/simulation/detail/present.hpp"
+#include "saltus/simulation/detail/tangent_waits.hpp"
 #include "saltus/simulation/detail/transition.hpp"
 
 namespace saltus {
@@ -35,6 +37,8 @@ class Deliveries {
   /// A guard, by its place among all guards, or a time event fires.
   void fire_guard(Index slot) { fire(static_cast<int>(slot)); }
   void fire_time_event(int event) { fire(static_cast<int>(plan().guard_slots) + event); }
+  /// Adds those that are due now.
+  void add_due(std::vector<DueNow>& all) const;
   /// Finds the deliveries of the pass to come. False if there is none.
   bool collect();
   /// Applies the reset maps of these, one after the other, in the order of their wires.
@@ -49,6 +53,8 @@ class Deliveries {
   const EventWires& wires() const { return plan().event_wires; }
   void fire(int source);
   int batch_of(const PendingDelivery& one) const;
+  const std::string& name_of(int batch) const;
+  double now() const;
 
   Machine* machine_;
   Transition* transition_;

@@ -26,8 +26,8 @@ class DeliveryQueue {
   void open() noexcept { changes_.clear(); }
   void undo();
 
-  /// Adds a delivery of a batch of wires, due at t [s].
-  void add(double t, int batch);
+  /// Adds a delivery of a batch of wires, due at t [s]; its number.
+  std::int64_t add(double t, int batch);
   /// Takes the first delivery out; its batch.
   int take();
 

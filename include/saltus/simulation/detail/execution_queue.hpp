@@ -39,8 +39,8 @@ class ExecutionQueue {
   void open();
   void undo();
 
-  /// Adds an execution, which gets the next number.
-  void add(WaitingExecution execution);
+  /// Adds an execution, which gets the next number; the number.
+  std::int64_t add(WaitingExecution execution);
   /// Takes an execution out, by its key.
   WaitingExecution take(Key key);
   /// The execution of a guard that waits, if there is one; the earliest of several.

@@ -7,6 +7,7 @@
 #include "saltus/simulation/detail/execution_queue.hpp"
 #include "saltus/simulation/detail/journal.hpp"
 #include "saltus/simulation/detail/queue_decisions.hpp"
+#include "saltus/simulation/detail/tangent_waits.hpp"
 
 namespace saltus {
 
@@ -32,6 +33,8 @@ class Executions {
 
   /// [s] The time at which the next execution is due; infinite if none waits.
   double next() const noexcept { return queue_.next(); }
+  /// Adds those that are due now.
+  void add_due(std::vector<DueNow>& all);
   /// Takes the first of the executions that are due, and adds it to the actions of the pass. False
   /// if none is due, or if the pass cancels some of them.
   bool collect();
@@ -68,6 +71,7 @@ class Executions {
   double delay_of(int group, Index entry) const;
   void schedule(int group, Index entry, int from);
   void cancel(int group, Index entry, int from);
+  void look_at_ties(double priority);
   void note(EventKind kind, const WaitingExecution& one, int direction);
 
   Machine* machine_;

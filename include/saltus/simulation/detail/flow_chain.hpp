@@ -1,7 +1,9 @@
 // FlowChain: the derivatives of a flow with called functions, from function to function.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,7 +48,8 @@ class FlowChain {
   void evaluate(const std::vector<OfNode>& nodes, double t);
   Eigen::MatrixXd derivative(const LeafFunction& function, double t);
   Eigen::MatrixXd exact(const LeafFunction& function, double t);
-  Eigen::RowVectorXd row_of(const ReadValue& read) const;
+  std::span<const ParameterMoves::Column> columns_of(Index parameter) const;
+  void add(const ReadValue& read, double value, Index row, Eigen::MatrixXd& by) const;
   bool moves(const ReadValue& read) const;
 
   const Machine* run_;
@@ -58,9 +61,9 @@ class FlowChain {
   std::vector<OfNode> for_rates_, for_guards_;
   std::vector<LeafFunction> rates_, guards_;
   List<int> guard_of_slot_;  // -1: none
-  List<Index> column_;       // of each parameter; -1: none
-  Eigen::MatrixXd z_, y_;    // the derivatives of discrete states and signals
-  Index count_ = 0;          // columns: the states, then those of the parameters
+  std::shared_ptr<const ParameterMoves> p_;
+  Eigen::MatrixXd z_, y_;  // the derivatives of discrete states and signals
+  Index count_ = 0;        // columns: the states, then those of the parameters
   std::string obstacle_;
 };
 

@@ -105,6 +105,7 @@ class Instant {
   void look_at_guards();
   void open_queues();
   void find_next_due();
+  std::vector<DueNow> waiting_due();
 
   const Plan& plan() const { return machine_->plan(); }
 

@@ -1,12 +1,13 @@
 // TangentColumns: the derivatives by the chosen parameters, and what differences need to know.
 #pragma once
 
-#include <vector>
+#include <memory>
+#include <span>
 
 #include <Eigen/Core>
 
-#include "saltus/base/list.hpp"
 #include "saltus/base/view.hpp"
+#include "saltus/simulation/detail/parameter_moves.hpp"
 
 namespace saltus {
 
@@ -14,7 +15,7 @@ namespace saltus {
 struct TangentDirection {
   double t = 0.0;                                         ///< of the time
   const double *x = nullptr, *z = nullptr, *y = nullptr;  ///< null: zero
-  Index parameter = -1;                                   ///< an entry of p that changes by 1
+  std::span<const ParameterMove> p = {};                  ///< the entries of p that change
 };
 
 /// The derivatives by the chosen parameters: a column for each of them. They are those at a time that
@@ -22,16 +23,26 @@ struct TangentDirection {
 struct TangentColumns {
   Eigen::MatrixXd x, z, y;  ///< of the states, the discrete states and the signals
   Eigen::RowVectorXd t;
-  std::vector<Index> parameters;  ///< the entry of p that each column is of, or -1
-  Index size() const { return static_cast<Index>(parameters.size()); }
+  std::shared_ptr<const ParameterMoves> p;  ///< of the parameters of blocks; null: none moves
+  Index size() const { return t.size(); }
   /// Whether a parameter may move the state, or the flow at the state.
   bool matters(Index k) const {
-    return nth(parameters, k) >= 0 || !x.col(k).isZero(0.0) || !z.col(k).isZero(0.0) ||
+    return !moves(k).empty() || !x.col(k).isZero(0.0) || !z.col(k).isZero(0.0) ||
            !y.col(k).isZero(0.0);
+  }
+  /// The entries of p that a column moves.
+  std::span<const ParameterMove> moves(Index k) const {
+    if (!p) return {};
+    return p->of_column(k);
+  }
+  /// The columns that move an entry of p.
+  std::span<const ParameterMoves::Column> by_entry(Index i) const {
+    if (!p) return {};
+    return p->of_entry(i);
   }
   /// One of them as a direction.
   TangentDirection column(Index k) const {
-    return {t[k], x.col(k).data(), z.col(k).data(), y.col(k).data(), nth(parameters, k)};
+    return {t[k], x.col(k).data(), z.col(k).data(), y.col(k).data(), moves(k)};
   }
 };
 

@@ -16,6 +16,10 @@ struct MovedTime {
   std::string doubt = "the guard only grazes zero";  ///< where a derivative is NaN
 };
 
+/// Whether two times with these derivatives move apart with a parameter. The differences of called
+/// functions have errors of 1e-10 (see TangentProbe), which a slow crossing amplifies. NaN: no.
+bool moves_apart(double a, double b);
+
 /// With the derivatives S of the state, a guard g and the flow f before the event, the time tau of a
 /// crossing moves by dtau = -(g_x S + g_p) / (g_x f + g_t). The columns may belong to a moving time
 /// already; dtau is then added to its movement.

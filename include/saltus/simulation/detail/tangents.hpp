@@ -1,12 +1,15 @@
 // Tangents: the derivatives of a run, carried along beside it.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "saltus/model/context_entry.hpp"
+#include "saltus/simulation/detail/computed_derivatives.hpp"
 #include "saltus/simulation/detail/flow_jumps.hpp"
 #include "saltus/simulation/detail/inputs_before.hpp"
 #include "saltus/simulation/detail/integration.hpp"
@@ -14,10 +17,13 @@
 #include "saltus/simulation/detail/tangent_events.hpp"
 #include "saltus/simulation/detail/tangent_rows.hpp"
 #include "saltus/simulation/detail/tangent_times.hpp"
+#include "saltus/simulation/detail/tangent_waits.hpp"
 #include "saltus/simulation/detail/transition.hpp"
 #include "saltus/simulation/detail/variation.hpp"
 
 namespace saltus {
+
+struct SensitivityEntry;
 
 /// Watches a run and never changes it. Between instants it solves the linear equation S' = f_x S +
 /// f_p along the steps of the run. At an instant whose time tau depends on a parameter it goes over
@@ -48,10 +54,12 @@ class Tangents {
   void monitor(const MonitorHit& hit, const double* x);
 
   // --- an instant
-  void open(const Present& present, const std::vector<int>& due);
+  void open(const Present& present, const std::vector<int>& due,
+            const std::vector<DueNow>& waiting);
   void begin_pass() { next_x_ = columns_.x, next_z_ = columns_.z; }
-  /// A reset map or an update is about to be called at these values of its leaf.
-  void call(const Transition::Call& call, const double* x_next, const double* z_next, int mode);
+  /// A reset map or an update, or that of a delivery, is about to be called.
+  void call(const Transition::Call& call, const Transition::Seen& seen);
+  void deliver(const Transition::Arrival& arrival, const Transition::Seen& seen);
   void commit();
   /// These guards fire in the next pass.
   void look_at_firings(const Present& present);
@@ -60,6 +68,23 @@ class Tangents {
   void close();
   /// The events of the instant are in the log.
   void log() { events_.log(t_, cause_.has_value()); }
+
+  // --- what waits, by its number in its queue
+  void wait(std::int64_t number);
+  void schedule(const PendingExecution& one, const Transition::Call& call, const NumberOf* delay,
+                const Transition::Seen& seen);
+  void cancel(std::int64_t number);
+  void take_delivery(std::int64_t number, const std::string& event);
+  void take_execution(std::int64_t number, const std::string& event);
+  void write_frozen(const PendingExecution& one);
+  /// The priority of an execution; null: it has none.
+  struct PriorityOf {
+    const NumberOf* priority;
+    int leaf;
+    Index entry;
+    std::string event;
+  };
+  void tie(const std::vector<PriorityOf>& all);
 
   // --- a Zeno monitor, by any pointer that belongs to it alone
   void fired(const void* monitor) { events_.fired(monitor, t_); }
@@ -82,11 +107,33 @@ class Tangents {
   Index size() const { return columns_.size(); }
   bool in_instant() const { return phase_ != Phase::between; }
   std::string cause() const { return cause_.value_or(""); }
+  std::vector<ParameterDirection> directions_of(const std::vector<SensitivityEntry>& all,
+                                                const Context& start);
   void begin_signals(const Context& start);
   void clear_truths();
-  void call_declared(const Transition::Call& call, const DerivativesFunction& derivatives,
-                     const double* x_next, const double* z_next, int mode);
+  /// The probe is moved by `shift` along a column.
+  struct MovedAlong {
+    Machine* probe;
+    Index column;
+    double shift;
+  };
+  using OnSeen = std::function<void(const MovedAlong& by, At& at, double* to)>;
+  Eigen::MatrixXd of_seen(const Transition::Seen& seen, Index rows, const OnSeen& function);
+  Eigen::MatrixXd of_call(const Transition::Call& call, const Transition::Seen& seen);
+  Eigen::MatrixXd of_declared(const Transition::Call& call, const Transition::Seen& seen,
+                              const DerivativesFunction& derivatives);
+  Eigen::RowVectorXd of_number(const NumberOf& number, const Transition::Seen& seen);
+  Eigen::RowVectorXd of_priority(const PriorityOf& one);
+  void write(const PlanLeaf& leaf, const Eigen::MatrixXd& by);
+  void look_at_unchanged(const std::vector<int>& changed, const Eigen::MatrixXd& by,
+                         const Eigen::MatrixXd& before, const Transition::Call& call);
+  TangentWaits::Waiting take(const WaitingKey& key, const std::string& event);
   void merge(const MovedTime& moved, bool first);
+  void look_beside(const Present& present, const TangentColumns& until, const Eigen::VectorXd& flow,
+                   bool first);
+  void look_beside(std::size_t guard, double g, const TangentColumns& until,
+                   const Eigen::VectorXd& flow);
+  double rounding_of(const GuardTangent& guard, const Eigen::VectorXd& flow) const;
   void look_at_waiting();
   void look_at_waiting(std::size_t guard, const Eigen::VectorXd& flow);
   bool decides(const GuardGroup& group, Index entry, const Eigen::VectorXd& flow);
@@ -105,6 +152,7 @@ class Tangents {
   const GuardSet* guards_;
   const SimulatorOptions* options_;
   Results* results_;
+  ComputedDerivatives computed_;
   TangentProbe probe_;
   TangentFlow flow_;
   FlowJumps jumps_;
@@ -113,6 +161,9 @@ class Tangents {
   TangentColumns columns_;  // of the state between instants, then of the instant
   TangentColumns before_;   // at a fixed time before the instant
   InputsBefore inputs_before_;
+  TangentWaits waits_;
+  Eigen::VectorXd guard_sizes_;  // the largest value of each so far
+  TangentWaits::Waiting taken_;  // the execution of this pass
   OneSided one_sided_;
   TangentGaps gaps_;
   TangentEvents events_;

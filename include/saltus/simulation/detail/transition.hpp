@@ -41,6 +41,17 @@ class Transition {
     std::string_view source;  ///< "block.event", for errors
     bool before = false;      ///< it reads its inputs as they were before the instant
   };
+  /// What a function of a leaf sees in this pass: its states and its mode are those to come.
+  struct Seen {
+    int leaf;
+    Index entry;
+    const double *x, *z;  ///< of the leaf
+    int mode;
+  };
+  Seen seen_by(int leaf, Index entry) const {
+    const PlanLeaf& of = machine_->plan().leaf(leaf);
+    return {leaf, entry, x_next_.data() + of.x, z_next_.data() + of.z, modes_next_[leaf]};
+  }
   /// Runs a reset map or an update of a leaf. It sees the values that the earlier ones of this pass
   /// wrote to the states and the mode of its leaf (3.2, 3.3). Returns whether it had an effect: it
   /// wrote a state, or changed the mode.
