@@ -104,10 +104,11 @@ class Finder {
     join(queued, queued.front(), "the queue of executions");
   }
 
+  /// Those without a delay: an instant is one for all blocks that it reaches.
   void join_event_wires() {
     std::map<std::pair<int, int>, std::vector<int>> sources;  // of each event input
     for (const EventWire& wire : plan_.event_wires.declared)
-      sources[{wire.to, wire.input}].push_back(wire.from);
+      if (wire.delay == 0.0) sources[{wire.to, wire.input}].push_back(wire.from);
     for (const auto& [to, from] : sources) {
       const PlanLeaf& of = leaf(to.first);
       join(from, to.first, text(of.path, ".", of.declared().event_inputs[to.second].name), true);
@@ -117,8 +118,13 @@ class Finder {
   void collect_event_wires() {
     const auto& wires = plan_.event_wires.declared;
     if (!wires.empty()) found_.event_wires.resize(found_.count());
-    for (std::size_t i = 0; i < wires.size(); ++i)
-      nth(found_.event_wires, found_.of_leaf[wires[i].from]).push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < wires.size(); ++i) {
+      const int from = found_.of_leaf[wires[i].from];
+      const bool inside = from == found_.of_leaf[wires[i].to];
+      auto& all = inside ? found_.event_wires : found_.outgoing;
+      if (!inside) all.resize(found_.count());
+      nth(all, from).push_back(static_cast<int>(i));
+    }
   }
 
   void collect() {
@@ -207,7 +213,8 @@ std::vector<const Islands::Join*> shown_joins(const Islands& islands) {
 
 std::string text_of(const Islands::Join& join) {
   return text(join.reader, join.by_events ? "' (gets events of " : "' (reads ", join.parts,
-              join.parts == 1 ? " other part)" : " other parts)");
+              join.parts == 1 ? " other part" : " other parts",
+              join.by_events ? " without a delay)" : ")");
 }
 
 }  // namespace
@@ -219,7 +226,11 @@ std::string Islands::describe() const {
     out += i > 0 ? ", '" : count() == 1 ? ", because of '" : "; joined by '";
     out += text_of(*shown[i]);
   }
-  return out + (shown.size() > most_shown ? ", ...\n" : "\n");
+  if (shown.size() > most_shown) out += ", ...";
+  std::size_t between = 0;
+  for (const auto& wires : outgoing) between += wires.size();
+  if (between > 0) out += text("; ", between, " event wires with delays lead from one to another");
+  return out + "\n";
 }
 
 }  // namespace saltus

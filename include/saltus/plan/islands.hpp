@@ -9,8 +9,9 @@
 
 namespace saltus {
 
-/// The islands of a plan: two blocks are in one island if a wire, or an event wire, leads from one to
-/// the other, or if both have a queued zero crossing, because all of these share one queue. A source that only the
+/// The islands of a plan: two blocks are in one island if a wire, or an event wire without a delay,
+/// leads from one to the other, or if both have a queued zero crossing, because all of these share
+/// one queue. Event wires with a delay lead from island to island. A source that only the
 /// time moves, for example a Constant, a Sine or a Step, joins nothing: each island that reads it has
 /// a copy of it, with the time events of the source. A block without state and event, whose outputs nobody reads or records, is in no
 /// island.
@@ -18,7 +19,8 @@ struct Islands {
   /// A block that joins parts, which without it would be islands.
   struct Join {
     std::string reader;      ///< "supervisor.total", the name of an output, or of a block
-    bool by_events = false;  ///< through event wires; `reader` is then "block.event_input"
+    bool by_events = false;  ///< through event wires without a delay; `reader` is then
+                             ///< "block.event_input"
     std::size_t parts = 0;  ///< the number of parts with a state or an event that it reads; its own
                             ///< part does not count
   };
@@ -26,13 +28,16 @@ struct Islands {
   std::vector<std::vector<int>> leaves;       ///< of each island, in the order of their declaration
   List<int> first;                            ///< of each island: its first block, copies left out
   std::vector<std::vector<int>> taps;         ///< of each island: its recorded signals
-  std::vector<std::vector<int>> event_wires;  ///< of each island, if there are any
+  std::vector<std::vector<int>> event_wires;  ///< inside each island, if the plan has any
+  std::vector<std::vector<int>> outgoing;     ///< to other islands, of each; empty if none has any
   /// The island of each leaf; of a copied source the first of its islands, if it has events or is
   /// recorded, otherwise -1; -1 also for a leaf in no island.
   List<int> of_leaf;
   std::vector<Join> joins;  ///< the block that joins most parts first
 
   std::size_t count() const { return leaves.size(); }
+  /// Whether event wires lead from island to island.
+  bool are_wired() const { return !outgoing.empty(); }
   /// The number of islands, and the blocks that join.
   std::string describe() const;
 };

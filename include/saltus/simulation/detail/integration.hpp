@@ -24,6 +24,7 @@ class Integration {
   /// and no guard can fire, t becomes t_stop.
   StopReason advance(double& t, double t_stop) {
     guards_->monitors.clear();
+    if (recalls_) records_ = guards_->all(), looks_ = guards_->g;
     if (still() && guards_->active().all.empty()) {
       t = t_stop, behind_ = true;
       return StopReason::stop_time;
@@ -31,6 +32,20 @@ class Integration {
     if (!started_) start(t);
     if (behind_) restart(t, {});
     const StopReason reason = solver_->advance(t_stop);
+    t = solver_->time();
+    return reason;
+  }
+  /// From now on each step may be taken back: `advance` keeps the records of the guards.
+  void allow_recall() noexcept { recalls_ = true; }
+  /// Takes the end of the last `advance` back to `to` [s], or to a root before, and sets t to it.
+  StopReason recall(double& t, double to) {
+    if (behind_) {
+      t = to;
+      return StopReason::stop_time;
+    }
+    guards_->restore(records_);
+    guards_->g = looks_;
+    const StopReason reason = solver_->recall(to);
     t = solver_->time();
     return reason;
   }
@@ -76,6 +91,9 @@ class Integration {
   bool started_ = false;
   bool behind_ = false;     // the solver is not at the present time: no guard could fire since
   Eigen::VectorXd inside_;  // a state inside the last step
+  bool recalls_ = false;
+  List<Guard> records_;  // of the guards before the last step, and their values
+  List<double> looks_;
 };
 
 }  // namespace saltus

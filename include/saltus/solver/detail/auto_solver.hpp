@@ -46,6 +46,8 @@ class AutoSolver final : public Solver {
     return reason;
   }
 
+  StopReason recall(double t) override { return active().recall(t); }
+
   void interpolate(double t, double* x) override { active().interpolate(t, x); }
   int degree() const override { return active().degree(); }
   double joint() override { return active().joint(); }

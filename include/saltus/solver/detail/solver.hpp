@@ -64,6 +64,9 @@ class Solver {
   virtual void restart(double t, const Eigen::VectorXd& x, const Start& start) = 0;
   /// Takes one minor step, at most to t_stop, or to the first root in it.
   virtual StopReason advance(double t_stop) = 0;
+  /// Takes the end of the last `advance` back to t [s], which lies within it: the step is delivered
+  /// up to there, or to a root before. The guards are those before that call.
+  virtual StopReason recall(double t) = 0;
   /// The state at a time within the last step.
   virtual void interpolate(double t, double* x) = 0;
   /// Degree in time of `interpolate` within the last step.

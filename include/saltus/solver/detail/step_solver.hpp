@@ -56,8 +56,20 @@ class StepSolver : public Interface {
   StopReason advance(double t_stop) final {
     guards_->monitors.clear();
     if (delivered_) take_step(t_stop);
+    from_ = offset_;
     try {
       return deliver(t_stop);
+    } catch (...) {
+      take_back();
+      throw;
+    }
+  }
+
+  StopReason recall(double t) final {
+    guards_->monitors.clear();
+    try {
+      go_back();
+      return deliver_part(t - t0_, t);
     } catch (...) {
       take_back();
       throw;
@@ -132,15 +144,43 @@ class StepSolver : public Interface {
     return t1_ >= t_stop ? StopReason::stop_time : StopReason::step;
   }
 
+  /// Nothing is delivered any more of what the last `advance` delivered.
+  void go_back() {
+    offset_ = from_;
+    read_root(offset_);
+    delivered_ = false, time_ = t0_ + offset_;
+  }
+
+  /// Delivers the step to `to`, an offset inside it at t [s], or to a root before.
+  StopReason deliver_part(double to, double t) {
+    if constexpr (CutsSteps<Method>) {
+      if (is_whole()) self().cut(to);
+    }
+    const auto look = [this](double u, double* x) { inside(u, x); };
+    locator_.forget();
+    const bool stops =
+        offset_ < to && !guards_->active().all.empty() &&
+        locator_.find({t0_, offset_, to, nullptr, nullptr, scan_points(), points()}, look);
+    const double end = stops ? locator_.offset() : to;
+    read_root(end);
+    locator_.forget();  // its looks are those of a step that ends here
+    offset_ = end, delivered_ = false;
+    time_ = end < to ? t0_ + end : t;
+    return stops ? StopReason::root : StopReason::stop_time;
+  }
+
+  LookPoints* points() {
+    const bool by_values = guards_->scan_points || tangent_;
+    return by_values ? nullptr : self().look_points();
+  }
+
   /// Whether nothing of the step is delivered, and the method itself has taken it.
   bool is_whole() const noexcept { return offset_ == 0.0 && !tangent_; }
 
   template <class Inside>
   bool find_root(const Inside& inside) {
     const auto find = [&](const double* guards) {
-      const bool by_values = guards_->scan_points || tangent_;
-      LookPoints* const points = by_values ? nullptr : self().look_points();
-      return locator_.find({t0_, offset_, length_, x1_.data(), guards, scan_points(), points},
+      return locator_.find({t0_, offset_, length_, x1_.data(), guards, scan_points(), points()},
                            inside);
     };
     if constexpr (CutsSteps<Method>) {
@@ -202,6 +242,7 @@ class StepSolver : public Interface {
   detail::TangentStep tangent_;  // after the method's own step was refused
   Locator locator_;
   double time_ = 0.0, offset_ = 0.0, run_begun_ = 0.0;
+  double from_ = 0.0;  // offset_ before the last call of `advance`
   bool delivered_ = true;  // the last step is delivered to its end
   Eigen::VectorXd state_;  // the state at a root inside the last step
   Eigen::VectorXd next_state_;
