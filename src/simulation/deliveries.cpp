@@ -91,9 +91,8 @@ bool Deliveries::collect() {
     for (int target = batch.first; target < batch.last; ++target)
       arriving_.push_back(wires().targets[target]);
   }
-  const std::size_t inside = arriving_.size();
   outside_.take(now, arriving_);
-  if (fired_.size() > 1 || arriving_.size() > std::max<std::size_t>(inside, 1))
+  if (!std::ranges::is_sorted(arriving_, {}, &EventWires::Target::number))
     std::ranges::stable_sort(arriving_, {}, &EventWires::Target::number);
   fired_.clear();
   delivered_ = delivered_ || !arriving_.empty();

@@ -12,7 +12,6 @@ namespace saltus {
 void Run::begin_piece(double t_end) {
   require_ready(t_end);
   endings_.go_on(std::chrono::steady_clock::now());
-  integration_.allow_recall();
   t_end_ = t_end, taken_.reset();
   guarded([&] {
     if (over_) return results_.status;
@@ -36,7 +35,8 @@ Status Run::take_step() {
   depart(time_);
   Taken step{.to = time_, .reason = StopReason::step, .t_stop = next_stop(t_end_)};
   try {
-    step.reason = integration_.advance(step.to, step.t_stop);
+    const double due = instant_.next_outside();
+    step.reason = integration_.advance_recallably(step.to, step.t_stop, due);
   } catch (const Interruption&) {
     throw;
   } catch (...) {
@@ -65,28 +65,22 @@ Status Run::commit_step(double safe) {
   double to = taken_->to;
   const StopReason reason = taken_->failed
                                 ? step_again(to, std::min({taken_->t_stop, due, safe, t_end_}))
-                                : cut_step(to, due);
+                                : integration_.cut(to, taken_->reason, std::min(due, t_end_));
   time_ = to;
   if (const Status status = arrive(from, reason, t_end_, arrives_by(to)); over_) return status;
   return take_step();
 }
 
-/// Cuts the step at what arrives at `due` [s], or at the end of the piece.
-StopReason Run::cut_step(double& to, double due) {
-  const double latest = std::min(due, t_end_);
-  if (!(latest < to - Calendar::slack(to))) return taken_->reason;
-  return integration_.recall(to, latest);
-}
-
 /// Takes the step anew, no further than to t_stop [s]: nothing arrives before.
 StopReason Run::step_again(double& to, double t_stop) {
+  integration_.take_state(time_);
   integration_.restart(time_, {});
   return integration_.advance(to, t_stop);
 }
 
 void Run::cut_at(double t) {
   t_end_ = t;
-  if (taken_ && !taken_->failed && !(time_ < t)) integration_.recall(taken_->to, time_);
+  if (taken_ && !taken_->failed && !(time_ < t)) integration_.cut(taken_->to, taken_->reason, time_);
   if (!(time_ < t)) taken_.reset();
   while (taken_ && !over()) commit(t);
 }

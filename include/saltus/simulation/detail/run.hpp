@@ -88,7 +88,6 @@ class Run {
   void commit(double safe);
   Status take_step();
   Status commit_step(double safe);
-  StopReason cut_step(double& to, double due);
   StopReason step_again(double& to, double t_stop);
   double next_stop(double t_end);
   void depart(double from);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "saltus/solver/detail/locate.hpp"
 #include "saltus/solver/detail/solver.hpp"
@@ -65,15 +67,31 @@ class StepSolver : public Interface {
     }
   }
 
+  double look_ahead(double t_stop) final {
+    locator_.keep();
+    if constexpr (CutsSteps<Method>) return -std::numeric_limits<double>::infinity();
+    if (delivered_) take_step(t_stop);
+    from_ = offset_;
+    return t1_;
+  }
+
   StopReason recall(double t) final {
-    guards_->monitors.clear();
+    go_back();
     try {
-      go_back();
       return deliver_part(t - t0_, t);
     } catch (...) {
       take_back();
       throw;
     }
+  }
+
+  double end_of_step() const final { return t1_; }
+  void go_back() final {
+    guards_->monitors.clear();
+    locator_.restore();
+    if (from_ > 0.0) read_root(from_);
+    offset_ = from_;
+    delivered_ = false, time_ = t0_ + offset_;
   }
 
   void interpolate(double t, double* x) final {
@@ -144,13 +162,6 @@ class StepSolver : public Interface {
     return t1_ >= t_stop ? StopReason::stop_time : StopReason::step;
   }
 
-  /// Nothing is delivered any more of what the last `advance` delivered.
-  void go_back() {
-    offset_ = from_;
-    read_root(offset_);
-    delivered_ = false, time_ = t0_ + offset_;
-  }
-
   /// Delivers the step to `to`, an offset inside it at t [s], or to a root before.
   StopReason deliver_part(double to, double t) {
     if constexpr (CutsSteps<Method>) {
@@ -160,7 +171,7 @@ class StepSolver : public Interface {
     locator_.forget();
     const bool stops =
         offset_ < to && !guards_->active().all.empty() &&
-        locator_.find({t0_, offset_, to, nullptr, nullptr, scan_points(), points()}, look);
+        locator_.find({t0_, offset_, to, nullptr, nullptr, part_points(to), points()}, look);
     const double end = stops ? locator_.offset() : to;
     read_root(end);
     locator_.forget();  // its looks are those of a step that ends here
@@ -203,6 +214,12 @@ class StepSolver : public Interface {
   int scan_points() {
     return guards_->scan_points ? *guards_->scan_points
                                 : std::max(thresholds::least_scan_points, self().even_looks());
+  }
+
+  /// As far apart as in the whole step.
+  int part_points(double to) {
+    const double share = (to - offset_) / length_;
+    return std::max(1, static_cast<int>(std::ceil(scan_points() * std::min(share, 1.0))));
   }
 
   void read_root(double root) {
