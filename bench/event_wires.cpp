@@ -1,7 +1,16 @@
 // What does a delivery of an event wire cost, and how does it grow with blocks and wires? A source
 // beats a thousand times; 0, 1 or 100 of its wires lead to some of n counters, while each of the
 // other counters has 100 wires of its own, which never fire. Then n integrate-and-fire cells with
-// 100 targets each: the time for each spike. `event_wires 10000` runs the network of that size.
+// 100 targets each and delays: the time for each spike, with one common step and by islands, and how
+// far spikes are from those of one common step at rtol 1e-10.
+//
+//     build/bench/bin/event_wires                        the tables
+//     build/bench/bin/event_wires apart|common n [end]   one run, for callgrind and for memory
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <random>
 #include <saltus/library/library.hpp>
 
@@ -75,7 +84,12 @@ bench::Runner counters(int n, int targets) {
   return {system, system->create_context(), 1.0, {.record_events = false}};
 }
 
-bench::Runner network(int n) {
+struct Spiking {
+  bool islands = false;
+  double rtol = 1e-6, atol = 1e-8;
+};
+
+bench::Runner network(int n, double end, const Spiking& how) {
   DiagramBuilder builder;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> current(1.5, 3.0), start(0.0, 1.0);
@@ -87,7 +101,11 @@ bench::Runner network(int n) {
       builder.connect_event(one->event_output("fire"),
                             all[random() % all.size()]->event_input("synapse"), 1e-4, 0.05);
   const auto system = std::make_shared<const Diagram>(builder.build());
-  return {system, system->create_context(), 100.0 / n, {.ode_solver_method = Method::dopri5}};
+  return {system, system->create_context(), end,
+          {.rtol = how.rtol,
+           .atol = how.atol,
+           .ode_solver_method = Method::dopri5,
+           .islands = how.islands}};
 }
 
 void deliveries(bench::Sheet& sheet, int n) {
@@ -101,29 +119,71 @@ void deliveries(bench::Sheet& sheet, int n) {
              {"a delivery [ns]", (times[2].time - times[1].time) * 1e6 / (fan - 1)}});
 }
 
-void spikes(bench::Sheet& sheet, int n) {
-  const double start = bench::processor_time();
-  bench::Runner run = network(n);
+double megabytes() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return static_cast<double>(used.ru_maxrss) / 1024.0;
+}
+
+/// The longest distance in time between the k-th spikes of a cell in two runs; infinite if they do
+/// not have the same number.
+double distance(const Results& a, const Results& b, int n) {
+  double most = a.events.size() == b.events.size() ? 0.0 : INFINITY;
+  for (int k = 0; k < n && std::isfinite(most); ++k) {
+    const auto one = a.events.times(text("c", k, ".fire")), two = b.events.times(text("c", k, ".fire"));
+    if (one.size() != two.size()) return INFINITY;
+    for (std::size_t i = 0; i < one.size(); ++i) most = std::max(most, std::abs(one[i] - two[i]));
+  }
+  return most;
+}
+
+/// One run; returns the processor time for each spike [us].
+double spikes(bench::Sheet& sheet, int n, double end, bool islands) {
+  const double start = bench::processor_time(), memory = megabytes();
+  bench::Runner run = network(n, end, {.islands = islands});
   const double made = bench::processor_time();
   run();
   const double ended = bench::processor_time();
   const auto events = static_cast<double>(run.results().events.size());
-  sheet.add({{"scene", "cells"},
+  const double each = (ended - made) * 1e6 / events;
+  sheet.add({{"scene", islands ? "cells, islands" : "cells, common step"},
              {"n", n},
              {"wires", n * fan},
              {"making [s]", made - start},
+             {"more memory [MB]", megabytes() - memory},
              {"spikes", events},
-             {"a spike [us]", (ended - made) * 1e6 / events}});
+             {"a spike [us]", each}});
+  return each;
+}
+
+void compare(bench::Sheet& sheet, int n) {
+  const double end = std::min(1.0, 100.0 / n);
+  const double apart = spikes(sheet, n, n >= 10'000 ? 0.1 : end, true);
+  const double common = spikes(sheet, n, end, false);
+  sheet.add({{"ratio of the common step to islands", text(n, " cells")}, {"ratio", common / apart}});
+}
+
+void distances(bench::Sheet& sheet, int n) {
+  const double end = 100.0 / n;
+  bench::Runner apart = network(n, end, {.islands = true});
+  bench::Runner exact = network(n, end, {.rtol = 1e-10, .atol = 1e-12});
+  apart(), exact();
+  sheet.add({{"scene", "islands at rtol 1e-6, common step at rtol 1e-10"},
+             {"n", n},
+             {"spikes", exact.results().events.size()},
+             {"furthest [s]", distance(apart.results(), exact.results(), n)}});
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   bench::Sheet sheet("event_wires", "What does a delivery of an event wire cost?");
-  if (argc == 2) {
-    spikes(sheet, std::atoi(argv[1]));
+  if (argc >= 3) {
+    const int n = std::atoi(argv[2]);
+    spikes(sheet, n, argc > 3 ? std::atof(argv[3]) : 100.0 / n, std::strcmp(argv[1], "apart") == 0);
     return 0;
   }
   for (const int n : {100, 1000, 10'000}) deliveries(sheet, n);
-  for (const int n : {100, 1000, 10'000}) spikes(sheet, n);
+  for (const int n : {100, 1000, 10'000}) compare(sheet, n);
+  for (const int n : {100, 1000}) distances(sheet, n);
 }

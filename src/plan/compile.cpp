@@ -126,6 +126,7 @@ Direction watched_direction(const ZeroCrossing& crossing) {
 std::set<std::pair<int, int>> senders_of(const Plan& plan) {
   std::set<std::pair<int, int>> senders;
   for (const EventWire& wire : plan.event_wires.declared) senders.insert({wire.from, wire.event});
+  for (const auto& sender : plan.event_wires.senders) senders.insert({sender.leaf, sender.event});
   return senders;
 }
 

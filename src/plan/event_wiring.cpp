@@ -58,7 +58,8 @@ void add_event_wires(Plan& plan, const Structure& structure, const LeafNumbers& 
     for (const int end : {from, to})
       if (controlled[end]) throw_controlled(plan.leaf(end));
     plan.event_wires.declared.push_back({from, wire.from.index, wire.from_entry, to, wire.to.index,
-                                         wire.to_entry, wire.weight, wire.delay});
+                                         wire.to_entry, wire.weight, wire.delay,
+                                         static_cast<int>(plan.event_wires.declared.size())});
   }
   mark_receivers(plan);
 }
@@ -131,14 +132,29 @@ void add_target(EventWires& wires, const SortedWire& one) {
   if (batches.empty() || batches.back().source != one.source || batches.back().delay != one.delay)
     batches.push_back({one.source, one.delay, target, target});
   const EventWire& wire = nth(wires.declared, one.number);
-  wires.targets.push_back({wire.to, wire.input, wire.to_entry, one.number, wire.weight});
+  wires.targets.push_back({wire.to, wire.input, wire.to_entry, wire.number, wire.weight});
   batches.back().last = target + 1;
+}
+
+}  // namespace
+
+namespace {
+
+/// The sources of the wires that lead out of the plan of an island.
+void mark_senders(const Plan& plan, EventWires& wires) {
+  if (wires.senders.empty()) return;
+  wires.sends_outside.assign(static_cast<std::size_t>(plan.guard_slots) + plan.schedule.size(), 0);
+  for (const EventWires::Sender& sender : wires.senders) {
+    const int source = event_source_of(plan, sender.leaf, sender.event, sender.entry);
+    if (source >= 0) wires.sends_outside[source] = 1;
+  }
 }
 
 }  // namespace
 
 void sort_event_wires(Plan& plan) {
   EventWires& wires = plan.event_wires;
+  mark_senders(plan, wires);
   wires.targets.reserve(wires.declared.size());
   for (const SortedWire& one : sorted_wires(plan)) add_target(wires, one);
   const auto sources = static_cast<std::size_t>(plan.guard_slots) + plan.schedule.size();

@@ -19,18 +19,30 @@ int in_part(const Plan& whole, const Plan& part, const std::vector<int>& leaves,
   return node.relation ? leaf.relations[node.index] : leaf.outputs[node.index];
 }
 
-/// An event wire joins its blocks, so both are in the part.
-void add_event_wires(const Plan& whole, Plan& part, const std::vector<int>& leaves,
-                     const std::vector<int>& wires) {
+/// The event wires inside the island, and which of its events other islands get.
+void add_event_wires(const Plan& whole, Plan& part, const Islands& islands, std::size_t k) {
+  const std::vector<int>& leaves = islands.leaves[k];
   const auto number = [&](int leaf) {
     return static_cast<int>(std::ranges::lower_bound(leaves, leaf) - leaves.begin());
   };
-  for (const int i : wires) {
+  for (const int i : islands.event_wires[k]) {
     EventWire wire = nth(whole.event_wires.declared, i);
     wire.from = number(wire.from), wire.to = number(wire.to);
     part.event_wires.declared.push_back(wire);
   }
   mark_receivers(part);
+  if (!islands.are_wired()) return;
+  std::vector<EventWires::Sender>& senders = part.event_wires.senders;
+  for (const int i : islands.outgoing[k]) {
+    const EventWire& wire = nth(whole.event_wires.declared, i);
+    senders.push_back({number(wire.from), wire.event, wire.from_entry});
+  }
+  std::ranges::sort(senders);
+  senders.erase(std::unique(senders.begin(), senders.end()), senders.end());
+  for (std::size_t l = 0; l < leaves.size(); ++l) {
+    if (whole.leaf(leaves[l]).receives)
+      part.leaves[l].receives = part.event_wires.receives_outside = true;
+  }
 }
 
 /// The diagrams that compute them are in the part.
@@ -69,7 +81,7 @@ std::shared_ptr<const Plan> plan_of_island(const Plan& whole, const Islands& isl
     for (std::size_t input = 0; input < inputs.size(); ++input)
       part.leaves[l].inputs[input] = in_part(whole, part, leaves, inputs[input]);
   }
-  if (whole.event_wires.any()) add_event_wires(whole, part, leaves, islands.event_wires[k]);
+  if (whole.event_wires.any()) add_event_wires(whole, part, islands, k);
   if (whole.computed) add_computed(whole, part, leaves, islands.computed[k]);
   add_needs(part);
   for (const int tap : islands.taps[k]) {

@@ -44,7 +44,7 @@ class Sets {
 
 class Finder {
  public:
-  explicit Finder(const Plan& plan)
+  Finder(const Plan& plan, DelayedWires delayed)
       : plan_(plan),
         n_(static_cast<int>(plan.leaves.size())),
         blocks_(plan),
@@ -54,7 +54,7 @@ class Finder {
       if (blocks_.live[i]) sets_.enliven(i);
     join_wires();
     join_queue();
-    join_event_wires();
+    join_event_wires(delayed);
     collect();
     collect_event_wires();
     collect_computed();
@@ -109,10 +109,11 @@ class Finder {
     join(queued, queued.front(), "the queue of executions");
   }
 
-  void join_event_wires() {
+  /// Wires without a delay always join: an instant is one for all blocks that it reaches.
+  void join_event_wires(DelayedWires delayed) {
     std::map<std::pair<int, int>, std::vector<int>> sources;  // of each event input
     for (const EventWire& wire : plan_.event_wires.declared)
-      sources[{wire.to, wire.input}].push_back(wire.from);
+      if (wire.delay == 0.0 || delayed == DelayedWires::join) sources[{wire.to, wire.input}].push_back(wire.from);
     for (const auto& [to, from] : sources) {
       const PlanLeaf& of = leaf(to.first);
       join(from, to.first, text(of.path, ".", of.declared().event_inputs[to.second].name), true);
@@ -122,8 +123,13 @@ class Finder {
   void collect_event_wires() {
     const auto& wires = plan_.event_wires.declared;
     if (!wires.empty()) found_.event_wires.resize(found_.count());
-    for (std::size_t i = 0; i < wires.size(); ++i)
-      nth(found_.event_wires, found_.of_leaf[wires[i].from]).push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < wires.size(); ++i) {
+      const int from = found_.of_leaf[wires[i].from];
+      const bool inside = from == found_.of_leaf[wires[i].to];
+      auto& all = inside ? found_.event_wires : found_.outgoing;
+      if (!inside) all.resize(found_.count());
+      nth(all, from).push_back(static_cast<int>(i));
+    }
   }
 
   /// The diagrams compute in the order of the whole plan, the outer ones first.
@@ -217,7 +223,7 @@ class Finder {
 
 }  // namespace
 
-Islands find_islands(const Plan& plan) { return Finder(plan).take(); }
+Islands find_islands(const Plan& plan, DelayedWires delayed) { return Finder(plan, delayed).take(); }
 
 namespace {
 
@@ -248,7 +254,11 @@ std::string Islands::describe() const {
     out += i > 0 ? ", '" : count() == 1 ? ", because of '" : "; joined by '";
     out += text_of(*shown[i]);
   }
-  return out + (shown.size() > most_shown ? ", ...\n" : "\n");
+  if (shown.size() > most_shown) out += ", ...";
+  std::size_t between = 0;
+  for (const auto& wires : outgoing) between += wires.size();
+  if (between > 0) out += text("; ", between, " event wires with delays lead from one to another");
+  return out + "\n";
 }
 
 }  // namespace saltus

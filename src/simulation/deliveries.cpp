@@ -25,28 +25,28 @@ void throw_no_such_wire(const Plan& plan, const PendingDelivery& one) {
 
 // --- from run to run
 
-/// The batch of wires of a delivery; -1 if the scene has no such wires.
-int Deliveries::batch_of(const PendingDelivery& one) const {
-  const int source = detail::event_source_of(plan(), one.leaf, one.event, one.entry);
-  if (!any_ || source < 0) return -1;
-  for (int batch = wires().first_batch[source]; batch < wires().first_batch[source + 1]; ++batch)
-    if (wires().batches[batch].delay == one.delay) return batch;
+int batch_of(const Plan& plan, const PendingDelivery& one) {
+  const EventWires& wires = plan.event_wires;
+  const int source = detail::event_source_of(plan, one.leaf, one.event, one.entry);
+  if (!wires.any() || source < 0) return -1;
+  for (int batch = wires.first_batch[source]; batch < wires.first_batch[source + 1]; ++batch)
+    if (wires.batches[batch].delay == one.delay) return batch;
   return -1;
 }
 
 void Deliveries::require_fits(const Context& context) const {
   if (context.pending() == nullptr) return;
   for (const PendingDelivery& one : context.pending()->deliveries) {
-    if (batch_of(one) < 0) throw_no_such_wire(plan(), one);
+    if (batch_of(plan(), one) < 0) throw_no_such_wire(plan(), one);
   }
 }
 
 void Deliveries::begin(const Context& from) {
   if (!any_) return;
-  queue_.clear();
+  queue_.clear(), outside_.clear();
   fired_.clear(), arriving_.clear();
   if (from.pending() == nullptr) return;
-  for (const PendingDelivery& one : from.pending()->deliveries) queue_.add(one.due, batch_of(one));
+  for (const PendingDelivery& one : from.pending()->deliveries) queue_.add(one.due, batch_of(plan(), one));
   queue_.open();
 }
 
@@ -61,7 +61,7 @@ std::vector<PendingDelivery> Deliveries::save() const {
 }
 
 void Deliveries::open() {
-  queue_.open();
+  queue_.open(), outside_.open();
   fired_.clear(), arriving_.clear();
   delivered_ = set_off_ = false;
 }
@@ -69,6 +69,10 @@ void Deliveries::open() {
 // --- in an instant
 
 void Deliveries::fire(int source) {
+  if (!wires().sends_outside.empty() && wires().sends_outside[source] != 0) {
+    outside_.fire(source, present_->t);
+    set_off_ = set_off_ || delivered_;
+  }
   for (int batch = wires().first_batch[source]; batch < wires().first_batch[source + 1]; ++batch) {
     const double delay = wires().batches[batch].delay;
     if (delay == 0.0) {
@@ -109,20 +113,20 @@ bool Deliveries::collect() {
   }
   for (const int number : fired_) {
     const EventWires::Batch& batch = wires().batches[number];
-    for (int target = batch.first; target < batch.last; ++target) arriving_.push_back(target);
+    for (int target = batch.first; target < batch.last; ++target)
+      arriving_.push_back(wires().targets[target]);
   }
-  if (fired_.size() > 1)
-    std::ranges::stable_sort(arriving_, {}, [this](int i) { return wires().targets[i].number; });
+  outside_.take(now(), arriving_);
+  if (!std::ranges::is_sorted(arriving_, {}, &EventWires::Target::number))
+    std::ranges::stable_sort(arriving_, {}, &EventWires::Target::number);
   fired_.clear();
   delivered_ = delivered_ || !arriving_.empty();
   return !arriving_.empty();
 }
 
 void Deliveries::run() {
-  for (const int i : arriving_) {
-    const EventWires::Target& target = wires().targets[i];
+  for (const EventWires::Target& target : arriving_)
     transition_->deliver({target.leaf, target.input, target.entry, target.weight, present_->t});
-  }
   arriving_.clear();
 }
 

@@ -42,6 +42,7 @@ std::shared_ptr<const PendingExecutions> IslandRuns::pending_of(const PendingExe
   }
   for (PendingDelivery one : whole.deliveries) {
     if (islands_.of_leaf[one.leaf] != static_cast<int>(k)) continue;
+    if (schedule_ && !schedule_->is_inside(one)) continue;
     one.leaf = number(one.leaf);
     part.deliveries.push_back(one);
   }
@@ -69,7 +70,8 @@ void IslandRuns::add_pending(PendingExecutions& whole, const PendingExecutions& 
 void IslandRuns::require_fits(const Context& context) const {
   if (context.pending() != nullptr) {
     for (const PendingDelivery& one : context.pending()->deliveries)
-      if (islands_.of_leaf[one.leaf] < 0) throw_no_such_wire(*plan_, one);
+      if (islands_.of_leaf[one.leaf] < 0 || batch_of(*plan_, one) < 0)
+        throw_no_such_wire(*plan_, one);
   }
   const Continuation* all = context.continuation();
   if (all == nullptr || all->islands.size() == all_.size()) return;
@@ -108,6 +110,11 @@ Context IslandRuns::context() const {
     if (part.pending() != nullptr) add_pending(pending, *part.pending(), k), waits = true;
   }
   v.pending = nullptr;
+  if (schedule_) {
+    const auto sent = schedule_->waiting(time_);
+    pending.deliveries.insert(pending.deliveries.end(), sent.begin(), sent.end());
+    waits = waits || !sent.empty();
+  }
   if (waits) {
     std::ranges::stable_sort(pending.deliveries, {}, &PendingDelivery::due);
     v.pending = std::make_shared<const PendingExecutions>(std::move(pending));

@@ -27,6 +27,7 @@ void IslandRuns::initialize(const Context& context) {
     const Continuation* continuation = island.begin.continuation();
     jumps.push_back(continuation != nullptr ? continuation->jump : 0);
   }
+  if (schedule_) schedule_->begin(context);
   begin_ = context;
   time_ = context.time();
   ends_.clear();
@@ -84,8 +85,8 @@ Status IslandRuns::leave() {
 
 /// Runs all islands to t_end, or to the earliest end that one of them has.
 void IslandRuns::run_all(double t_end) {
-  const double begin = time_;
   progress_.begin();
+  if (schedule_) return end_piece(run_wired(t_end));
   t_end = threads() > 1 ? run_side_by_side(t_end) : run_in_turn(t_end);
   if (stopped_) {
     for (const Island& island : all_) t_end = std::min(t_end, island.run->time());
@@ -98,9 +99,13 @@ void IslandRuns::run_all(double t_end) {
       if (all_[k].run->time() < t_end) t_end = all_[k].run->time(), ender_ = k, cut = true;
     }
   }
+  end_piece(t_end);
+}
+
+void IslandRuns::end_piece(double t_end) {
   progress_.end();
   ends_.push_back(t_end);
-  time_ = std::max(begin, t_end);
+  time_ = std::max(time_, t_end);
   if (ender_) end_with(*ender_);
 }
 
@@ -155,7 +160,7 @@ bool IslandRuns::interrupted() {
   const auto now = Clock::now();
   if (now - asked_ < std::chrono::milliseconds(20)) return false;
   asked_ = now;
-  results_.statistics = progress_.counts();
+  results_.statistics = counts();
   return asks_to_stop();
 }
 
@@ -182,6 +187,7 @@ bool IslandRuns::interrupted_between() {
 }
 
 double IslandRuns::time() const noexcept {
+  if (schedule_ && under_way_) return std::max(time_, schedule_->time());
   return time_ + progress_.time(time_) / static_cast<double>(all_.size());
 }
 

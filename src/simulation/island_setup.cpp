@@ -48,6 +48,11 @@ IslandRuns::IslandRuns(std::shared_ptr<const Plan> plan, Islands islands, Simula
   const auto sources = numbered(merger_.names());
   all_.reserve(islands_.count());
   for (std::size_t k = 0; k < islands_.count(); ++k) add_island(k, options_, sources);
+  if (islands_.are_wired()) {
+    std::vector<Run*> runs;
+    for (const Island& island : all_) runs.push_back(island.run.get());
+    schedule_.emplace(*plan_, islands_, std::move(runs));
+  }
   order_.resize(all_.size());
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   std::ranges::stable_sort(order_, std::greater<>(),

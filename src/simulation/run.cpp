@@ -1,5 +1,5 @@
 // Run: the loop from instant to instant.
-#include "saltus/simulation/detail/run.hpp"
+#include "saltus/simulation/detail/guarded.hpp"
 
 #include "saltus/base/detail/forced_unwind.hpp"
 #include "saltus/plan/detail/kept.hpp"
@@ -82,7 +82,7 @@ void Run::initialize(const Context& context) {
   calendar_.begin(time_, context.settled());
   instant_.begin_queues(context);
   integration_.begin();
-  begun_ = over_ = false;
+  begun_ = over_ = false, taken_.reset();
   accepted_ = {.settled = context.settled()};
   endings_.begin(time_);
 }
@@ -91,17 +91,7 @@ Status Run::advance_to(double t_end) {
   require_ready(t_end);
   const auto start = std::chrono::steady_clock::now();
   endings_.go_on(start);
-  try {
-    results_.status = run_to(t_end);
-  } catch (const SimulationError& error) {
-    fail(error.what());
-    results_.block = error.block();
-  } catch (const std::exception& error) {
-    fail(error.what());
-  } catch (...) {
-    detail::pass_end_of_thread();
-    fail("a function of the model threw");
-  }
+  guarded([&] { return run_to(t_end); });
   results_.statistics.wall_time +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   finish();
@@ -123,11 +113,7 @@ Status Run::run_to(double t_end) {
     if (const Status status = begin(t_end); over_) return status;
   }
   while (time_ < t_end) {
-    if (options_.max_major_steps && results_.statistics.instants >= *options_.max_major_steps) {
-      return end({.status = Status::step_limit,
-                  .message = text("t = ", time_, " s: the run used its ", *options_.max_major_steps,
-                                  " major steps before t = ", t_end, " s; raise max_major_steps")});
-    }
+    if (const auto status = over_steps(t_end)) return *status;
     if (const Status status = step(t_end); over_) return status;
     if (auto ending = endings_.interrupted(time_, [this] { count_calls(); })) return end(*ending);
   }
@@ -148,26 +134,48 @@ Status Run::begin(double t_end) {
   if (!resumes) return settle(StopReason::stop_time, t_end, true);
   // A run that failed in an instant goes on with that instant.
   const bool roots = instant_.finds_roots();
-  if (roots || calendar_.due(time_))
+  if (roots || calendar_.due(time_) || arrives_by(time_))
     return settle(roots ? StopReason::root : StopReason::stop_time, t_end, false);
   accepted_.place = Place::machine;
   major_.begin(time_);
   return Status::reached_end;
 }
 
+std::optional<Status> Run::over_steps(double t_end) {
+  if (!options_.max_major_steps || results_.statistics.instants < *options_.max_major_steps)
+    return {};
+  return end({.status = Status::step_limit,
+              .message = text("t = ", time_, " s: the run used its ", *options_.max_major_steps,
+                              " major steps before t = ", t_end, " s; raise max_major_steps")});
+}
+
 /// Takes one minor step, and runs the instant at its end if there is one.
 Status Run::step(double t_end) {
   const double from = time_;
-  const double t_stop =
-      major_.next(from, std::min(t_end, calendar_.stop(histories_.longest_end(from))));
+  const double t_stop = next_stop(t_end);
+  depart(from);
+  const StopReason reason = integration_.advance(time_, t_stop);
+  return arrive(from, reason, t_end, false);
+}
+
+/// [s] Where the next step stops at the latest.
+double Run::next_stop(double t_end) {
+  return major_.next(time_, std::min(t_end, calendar_.stop(histories_.longest_end(time_))));
+}
+
+/// A step leaves the time `from`.
+void Run::depart(double from) {
   if (options_.dense_output) results_.trajectory.depart(integration_.state());
   endings_.depart(from, integration_.state());
-  const StopReason reason = integration_.advance(time_, t_stop);
+}
+
+/// A step from `from` ends at time_. `arrives`: deliveries of other islands are due there.
+Status Run::arrive(double from, StopReason reason, double t_end, bool arrives) {
   if (endings_.passed_pole(from, time_, integration_)) fail_at_pole(from);
   accept(from);
   if (auto ending = endings_.after_step(time_, t_end - begin_.time(), integration_))
     return end(*ending);
-  if (reason == StopReason::step) return Status::reached_end;
+  if (reason == StopReason::step && !arrives) return Status::reached_end;
   return settle(reason, t_end, false);
 }
 
@@ -206,7 +214,7 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   ++results_.statistics.instants;
   results_.trajectory.instant();
   due_.clear();
-  const bool due = calendar_.due(time_);
+  const bool due = calendar_.due(time_) || arrives_by(time_);
   if (due || at_start) calendar_.take(time_, due_);
   if (reason != StopReason::root && !due && !at_start)
     return Status::reached_end;  // only the end of a major step

@@ -9,6 +9,15 @@
 
 namespace saltus {
 
+namespace {
+
+Islands islands_for(const Plan& plan, const SimulatorOptions& options) {
+  return find_islands(plan,
+                      options.sensitivity.empty() ? DelayedWires::cut : DelayedWires::join);
+}
+
+}  // namespace
+
 Simulator::Simulator(const System& system, SimulatorOptions options) {
   if (!options.islands) {
     run_ = std::make_unique<Run>(system, std::move(options));
@@ -26,7 +35,7 @@ Simulator::Simulator(std::shared_ptr<const Plan> plan, SimulatorOptions options)
     throw ModelError("recorded_signals: give them to compile(), where the plan is made");
   if (options.refinement)
     throw ModelError("refinement: give it to compile(), where the plan is made");
-  Islands islands = options.islands ? find_islands(*plan) : Islands();
+  Islands islands = options.islands ? islands_for(*plan, options) : Islands();
   if (islands.count() > 1)
     islands_ =
         std::make_unique<IslandRuns>(std::move(plan), std::move(islands), std::move(options));
@@ -93,7 +102,7 @@ std::string Simulator::describe() const {
                 const Turn turn = run.claim("describe");
                 return run.describe();
               }) +
-         (run_ && run_->options().islands ? find_islands(run_->plan()).describe() : "");
+         (run_ && run_->options().islands ? islands_for(run_->plan(), run_->options()).describe() : "");
 }
 
 }  // namespace saltus

@@ -51,6 +51,8 @@ ELSEWHERE = {
     "simulation/detail/island_merger": "laws/island_runs_test.cpp",
     "simulation/detail/island_progress": "laws/island_runs_test.cpp",
     "simulation/detail/island_runs": "laws/island_runs_test.cpp",
+    "simulation/detail/guarded": None,
+    "simulation/detail/island_schedule": "laws/island_wires_test.cpp",
     "simulation/detail/island_tangents": "laws/island_sensitivities_test.cpp",
     "simulation/detail/option_table": "unit/options_test.cpp",
     "simulation/detail/poles": "laws/poles_test.cpp",

@@ -18,6 +18,7 @@ struct EventWire {
   int to_entry = 0;
   double weight = 1.0;
   double delay = 0.0;  ///< [s]
+  int number = 0;      ///< in the order of declaration, also in the plan of an island
 };
 
 /// A source is one guard of a zero crossing, by its place among all guards, or a time event, which
@@ -35,13 +36,22 @@ struct EventWires {
     int first, last;  ///< its targets are first to last - 1
   };
 
+  /// An event whose wires lead out of the plan of an island.
+  struct Sender {
+    int leaf, event, entry;
+    auto operator<=>(const Sender&) const = default;
+  };
+
   std::vector<EventWire> declared = {};
+  std::vector<Sender> senders = {};  ///< of wires to other islands, each once, in order
+  bool receives_outside = false;     ///< wires of other islands may lead here
   List<Target> targets = {};   ///< batch after batch, each in the order of declaration
   List<Batch> batches = {};    ///< by source, then by delay
   List<int> first_batch = {};  ///< of each source, and of the source after the last
-  Place weight = {};           ///< of the weight under way, behind the inputs of its reset map
+  List<char> sends_outside = {};  ///< of each source; empty if there are no senders
+  Place weight = {};              ///< of the weight under way, behind the inputs of its reset map
 
-  bool any() const noexcept { return !declared.empty(); }
+  bool any() const noexcept { return !declared.empty() || !senders.empty() || receives_outside; }
 };
 
 }  // namespace saltus

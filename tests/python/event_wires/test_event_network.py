@@ -3,6 +3,7 @@
 import heapq
 
 import numpy as np
+import pytest
 import saltus
 from cells import TAU, Cell
 
@@ -65,7 +66,8 @@ def network(currents, start, targets, weights):
     return builder.build()
 
 
-def test_spikes_of_a_thousand_cells_are_those_of_exact_propagation():
+@pytest.mark.parametrize("islands", [False, True])
+def test_spikes_of_a_thousand_cells_are_those_of_exact_propagation(islands):
     """The engine's v is wrong by 1e-8, some ten times atol, since the last spike of a cell. Its
     spike time is then wrong by 1e-8 TAU / 0.5, and each spike of another cell moves v by w times
     that over TAU, at most 1e-9 for each. A few generations of spikes double it: 1e-7 s is far
@@ -75,7 +77,9 @@ def test_spikes_of_a_thousand_cells_are_those_of_exact_propagation():
     drawn = draw()
     spikes, margin = reference(*drawn)
     assert len(spikes) > N and margin > 5e-6
-    results = saltus.simulate(network(*drawn), time_span=(0.0, END), rtol=1e-8, atol=1e-9)
+    results = saltus.simulate(
+        network(*drawn), time_span=(0.0, END), rtol=1e-8, atol=1e-9, islands=islands
+    )
     assert len(results.events) == len(spikes)
     for k in range(N):
         mine = [t for t, cell in spikes if cell == k]

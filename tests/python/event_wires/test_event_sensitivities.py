@@ -54,6 +54,19 @@ def test_a_network_of_cells(delay, method):
         np.testing.assert_allclose(by, (times[0] - times[1]) / (2 * h), rtol=1e-5, atol=1e-7)
 
 
+def test_with_derivatives_a_wire_with_a_delay_joins_its_cells():
+    """The derivative of a delivery is known in the run in which its event fires."""
+    diagram, values = network(0.0013)
+    begin, span = currents(diagram, values), (0.0, 0.1)
+    options = {"sensitivity": ["cell 0.current"]}
+    apart = saltus.simulate(diagram, begin, span, islands=True, **options)
+    together = saltus.simulate(diagram, begin, span, **options)
+    np.testing.assert_array_equal(apart.events.dt_dp(), together.events.dt_dp())
+    assert np.any(apart.events.dt_dp() != 0.0)
+    whole = saltus.simulate(diagram, begin, span, islands=True)
+    assert len(whole.islands) == 8 and len(whole.events) == len(together.events)
+
+
 def test_a_spike_by_the_weight_through_a_parameter_of_the_diagram():
     current = saltus.Parameter("current", 80.0)
     builder = saltus.DiagramBuilder()

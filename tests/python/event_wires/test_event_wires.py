@@ -182,17 +182,45 @@ def test_pieces_of_one_simulator_are_the_run_of_the_pieces():
     assert simulator.context.continuous_state == pytest.approx(context.continuous_state, abs=1e-5)
 
 
-def test_islands_are_joined_by_event_wires():
+@pytest.mark.parametrize("delay", [0.0, 0.003])
+def test_event_wires_without_a_delay_join_islands(delay):
+    wires = [("a.fire", "b.synapse", 0.25, delay)]
     scene = wired(
-        Cell("a", CURRENT), Cell("b", 0.0), Cell("c", CURRENT), Cell("d", 0.0), wires=WIRES
+        Cell("a", CURRENT), Cell("b", 0.0), Cell("c", CURRENT), Cell("d", 0.0), wires=wires
     )
     results = saltus.simulate(scene, time_span=(0.0, 0.05), islands=True)
-    assert [island.name for island in results.islands] == ["a", "c", "d"]
+    names = ["a", "c", "d"] if delay == 0.0 else ["a", "b", "c", "d"]
+    assert [island.name for island in results.islands] == names
     together = saltus.simulate(scene, time_span=(0.0, 0.05))
     assert results.context.continuous_state == pytest.approx(
         together.context.continuous_state, abs=1e-5
     )
-    assert "joined by 'b.synapse'" in saltus.Simulator(scene, islands=True).describe()
+    described = saltus.Simulator(scene, islands=True).describe()
+    joined = "joined by 'b.synapse' (gets events of 1 other part)"
+    assert (joined if delay == 0.0 else "1 event wires with delays lead from one to another") in described
+
+
+def test_rows_of_wired_islands_are_those_of_one_common_step():
+    scene = pair()
+    at = np.linspace(0.0, 0.05, 101)
+    recorded = {name: scene.subsystem(name).output("v") for name in ("a", "b")}
+    options = {
+        "recorded_signals": recorded,
+        "save_at": at,
+        "event_rows": False,
+        "save_steps": False,
+        "rtol": 1e-9,
+        "atol": 1e-10,
+        "time_span": (0.0, 0.05),
+    }
+    apart = saltus.simulate(scene, islands=True, dense_output=True, **options)
+    common = saltus.simulate(scene, **options)
+    np.testing.assert_array_equal(apart.time, at)
+    for name in recorded:
+        np.testing.assert_allclose(apart[name], common[name], atol=1e-7)
+        np.testing.assert_allclose(
+            [apart(t)[name] for t in at[1::7]], apart[name][1::7], atol=1e-7
+        )
 
 
 @pytest.mark.parametrize("e", [0.0, 0.5])

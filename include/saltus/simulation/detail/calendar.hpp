@@ -85,6 +85,9 @@ class Calendar {
     return thresholds::tick_roundings * thresholds::eps * std::abs(t);
   }
 
+  /// Whether no instant that begins at t [s] reaches `later` [s].
+  static bool is_clearly_before(double t, double later) { return t + 2.0 * slack(t) < later; }
+
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 

@@ -6,12 +6,15 @@
 
 #include "saltus/model/context.hpp"
 #include "saltus/simulation/detail/delivery_queue.hpp"
+#include "saltus/simulation/detail/outside_wires.hpp"
 #include "saltus/simulation/detail/present.hpp"
 #include "saltus/simulation/detail/tangent_waits.hpp"
 #include "saltus/simulation/detail/transition.hpp"
 
 namespace saltus {
 
+/// The batch of wires of a pending delivery; -1 if the plan has no such wires.
+int batch_of(const Plan& plan, const PendingDelivery& one);
 /// Throws ModelError for a pending delivery that no wire of the plan makes.
 [[noreturn]] void throw_no_such_wire(const Plan& plan, const PendingDelivery& one);
 
@@ -30,10 +33,13 @@ class Deliveries {
   /// The deliveries that wait, for a context.
   std::vector<PendingDelivery> save() const;
   void open();
-  void undo() { queue_.undo(); }
+  void undo() { queue_.undo(), outside_.undo(); }
 
-  /// [s] The time at which the next delivery is due; infinite if none waits.
+  /// [s] The time at which the next delivery of a wire inside the plan is due; infinite if none waits.
   double next() const noexcept { return queue_.next(); }
+  /// What comes from other islands, and goes to them. A context does not have it.
+  OutsideWires& outside() noexcept { return outside_; }
+  const OutsideWires& outside() const noexcept { return outside_; }
   /// A guard, by its place among all guards, or a time event fires.
   void fire_guard(Index slot) { fire(static_cast<int>(slot)); }
   void fire_time_event(int event) { fire(static_cast<int>(plan().guard_slots) + event); }
@@ -52,7 +58,6 @@ class Deliveries {
   const Plan& plan() const { return machine_->plan(); }
   const EventWires& wires() const { return plan().event_wires; }
   void fire(int source);
-  int batch_of(const PendingDelivery& one) const;
   const std::string& name_of(int batch) const;
   double now() const;
 
@@ -61,8 +66,9 @@ class Deliveries {
   Present* present_;
   bool any_;
   DeliveryQueue queue_;
-  std::vector<int> fired_;     // batches without a delay whose events fired in this pass
-  std::vector<int> arriving_;  // targets of the pass to come
+  OutsideWires outside_;
+  std::vector<int> fired_;                     // batches without a delay that fired in this pass
+  std::vector<EventWires::Target> arriving_;  // targets of the pass to come
   bool delivered_ = false, set_off_ = false;
 };
 

@@ -50,6 +50,10 @@ class Instant {
   bool may_wait() const noexcept { return executions_.any() || deliveries_.any(); }
   /// [s] The time at which the next of these is due; null if nothing may wait.
   const double* next_due() const noexcept { return may_wait() ? &next_due_ : nullptr; }
+  /// What event wires bring from other islands, and take to them.
+  OutsideWires& outside() noexcept { return deliveries_.outside(); }
+  /// [s] The time at which the next of these is due; infinite if none waits.
+  double next_outside() const noexcept { return deliveries_.outside().next(); }
   /// Throws ModelError for a context in which something waits that the scene does not have.
   void require_fits(const Context& context) const;
   /// A run begins with what waits in a context.

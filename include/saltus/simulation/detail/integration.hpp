@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "saltus/simulation/detail/calendar.hpp"
 #include "saltus/simulation/options.hpp"
 #include "saltus/simulation/results.hpp"
 #include "saltus/solver/detail/choose.hpp"
@@ -30,9 +31,24 @@ class Integration {
     }
     if (!started_) start(t);
     if (behind_) restart(t, {});
-    const StopReason reason = solver_->advance(t_stop);
-    t = solver_->time();
-    return reason;
+    return delivered(t, solver_->advance(t_stop));
+  }
+  /// The same with a step that may be cut. If it reaches beyond `known` [s], it is cut there.
+  StopReason advance_recallably(double& t, double t_stop, double known) {
+    t_stop_ = t_stop;
+    if (still() && guards_->active().all.empty()) return advance(t, t_stop);
+    if (!started_) start(t);
+    if (behind_) restart(t, {});
+    records_ = guards_->all(), looks_ = guards_->g;
+    const double end = solver_->look_ahead(t_stop);
+    if (known < end - Calendar::slack(end)) return recall(t, known);
+    return advance(t, t_stop);
+  }
+  /// Cuts the last step at `at` [s], if it reaches beyond and has no root before. Sets t to its end.
+  StopReason cut(double& t, StopReason reason, double at) {
+    if (reason == StopReason::root && t < at - Calendar::slack(at)) return reason;
+    const double end = behind_ ? t : solver_->end_of_step();
+    return at < end - Calendar::slack(end) ? recall(t, at) : reason;
   }
   /// After an instant that changed f or x: begins anew from the machine's state, if at work.
   void restart(double t, const Start& start) {
@@ -66,6 +82,27 @@ class Integration {
 
  private:
   bool still() const { return machine_->plan().nx == 0; }
+  StopReason delivered(double& t, StopReason reason) const {
+    t = solver_->time();
+    return reason;
+  }
+  /// A root before `to` is that of the whole step: its bits must not depend on what is known.
+  StopReason recall(double& t, double to) {
+    if (behind_) {
+      t = to;
+      return StopReason::stop_time;
+    }
+    restore_guards();
+    if (const StopReason reason = solver_->recall(to); reason != StopReason::root)
+      return delivered(t, reason);
+    restore_guards();
+    solver_->go_back();
+    return advance(t, t_stop_);
+  }
+  void restore_guards() {
+    guards_->restore(records_);
+    guards_->g = looks_;
+  }
   void make();
   void start(double t);
 
@@ -76,6 +113,9 @@ class Integration {
   bool started_ = false;
   bool behind_ = false;     // the solver is not at the present time: no guard could fire since
   Eigen::VectorXd inside_;  // a state inside the last step
+  List<Guard> records_;     // of the guards before a step that may be recalled, and their values
+  List<double> looks_;
+  double t_stop_ = 0.0;  // [s] of that step
 };
 
 }  // namespace saltus

@@ -14,6 +14,7 @@
 #include "saltus/plan/islands.hpp"
 #include "saltus/simulation/detail/island_merger.hpp"
 #include "saltus/simulation/detail/island_progress.hpp"
+#include "saltus/simulation/detail/island_schedule.hpp"
 #include "saltus/simulation/detail/run.hpp"
 
 namespace saltus {
@@ -21,7 +22,7 @@ namespace saltus {
 /// One island after the other runs to the common end, or several at once on threads. If an island
 /// ends the run earlier, at t*, the islands that are ahead run again, from the start of the run to
 /// t*. A run is deterministic: each island has the bits of its part run alone to t*, on any number
-/// of threads. The logs, rows and counts of all islands are put together when they are asked for.
+/// of threads. Islands between which event wires lead run in windows of time: see IslandSchedule. The logs, rows and counts of all islands are put together when they are asked for.
 class IslandRuns {
  public:
   IslandRuns(std::shared_ptr<const Plan> plan, Islands islands, SimulatorOptions options);
@@ -60,6 +61,10 @@ class IslandRuns {
   void run_all(double t_end);
   double run_in_turn(double t_end);
   double run_side_by_side(double t_end);
+  void end_piece(double t_end);
+  double run_wired(double t_end);
+  void begin_again();
+  Statistics counts() const;
   Status run_one(std::size_t k, double t_end);
   void take_end(std::size_t k, Status status, double& t_end);
   void run_again(std::size_t k, double t_end);
@@ -75,6 +80,7 @@ class IslandRuns {
   SimulatorOptions options_;
   std::vector<std::size_t> order_;  ///< islands that can end the run come first
   std::vector<Island> all_;
+  std::optional<IslandSchedule> schedule_;  ///< if event wires lead from island to island
   mutable Results results_;
   mutable IslandMerger merger_;  ///< writes the columns of results_ where they are asked for
   int queue_ = -1;               ///< the island that has the queue of executions

@@ -46,6 +46,23 @@ class AutoSolver final : public Solver {
     return reason;
   }
 
+  double look_ahead(double t_stop) override {
+    if (active().at_step_end()) choose();
+    from_ = active().time(), test_before_ = test_;
+    return active().look_ahead(t_stop);
+  }
+  StopReason recall(double t) override {
+    test_ = test_before_;
+    const StopReason reason = active().recall(t);
+    test_.add_step(active().time() - from_);
+    return reason;
+  }
+  double end_of_step() const override { return active().end_of_step(); }
+  void go_back() override {
+    test_ = test_before_;
+    active().go_back();
+  }
+
   void interpolate(double t, double* x) override { active().interpolate(t, x); }
   int degree() const override { return active().degree(); }
   double joint() override { return active().joint(); }
@@ -158,6 +175,8 @@ class AutoSolver final : public Solver {
   StiffSigns signs_;
   ReturnTest test_;              // of the steps since the last restart or change
   bool damps_;                   // see start_of
+  ReturnTest test_before_;       // before the step of the last look_ahead,
+  double from_ = 0.0;            // which begins here [s]
   Eigen::VectorXd handed_over_;  // the state at a change
   StretchLog log_;
   mutable SolverStatistics sum_;

@@ -151,13 +151,13 @@ class Glance : protected Narrower {
   double oldest_at_ = never;       // the offset of the one before
   // The piece that begins at the look before the last is of this step, and nothing fired in it.
   bool may_go_back_ = false;
+  List<double> speed_;   // [1/s] recent speed of each guard
   int scan_points_ = 0;  // interior points of a step with a look
   double end_at_ = 0.0;  // where the part of a step that is searched ends
 
  private:
   List<double> plain_;         // plain_side() of each active guard
   List<double> least_move_;    // above 0 for one that may be constant while the state varies
-  List<double> speed_;         // [1/s] recent speed of each guard
   std::int64_t version_ = -1;  // of the records from which limits_ and plain_ were made
   bool jumps_ = false;         // some active guard takes two values only
 };

@@ -77,6 +77,7 @@ class GuardSearch : private PacedSearch {
   /// The step ends here: offsets are relative to the next one from now on.
   void end_step(double length) { earlier_at_ -= length, oldest_at_ -= length; }
 
+  using PacedSearch::keep, PacedSearch::restore;
   void begin_run() { forget(), PacedSearch::begin_run(); }
   /// Forgets the looks before a restart, which have no meaning after it.
   void forget() {

@@ -43,6 +43,10 @@ class Locator {
   /// Forgets the looks before a restart, which have no meaning after it.
   void forget() { stopping_.forget(), watching_.forget(); }
 
+  /// Keeps what the looks so far have taught, and forgets what was learnt since.
+  void keep() { stopping_.keep(), watching_.keep(); }
+  void restore() { stopping_.restore(), watching_.restore(), forget(); }
+
   double offset() const noexcept { return stopping_.offset(); }
 
  private:

@@ -26,6 +26,10 @@ class PacedSearch : protected PieceSearch {
 
   void begin_run() { pace_.begin_run(); }
 
+  /// Keeps what outlives a restart: the pace, which guards count, and how fast they move.
+  void keep() { kept_pace_ = pace_, kept_judge_ = judge_, kept_speed_ = speed_; }
+  void restore() { pace_ = kept_pace_, judge_ = kept_judge_, speed_ = kept_speed_; }
+
   /// The pieces of a step begin at `from`; `even` [s] is the distance of evenly spaced looks.
   template <class Interpolate>
   void begin_pieces(double from, double even, const Interpolate& interpolate) {
@@ -188,8 +192,9 @@ class PacedSearch : protected PieceSearch {
     return !located_->reads.empty() && hides(from, to);
   }
 
-  PieceJudge judge_;
-  LookPace pace_;
+  PieceJudge judge_, kept_judge_ = judge_;
+  LookPace pace_, kept_pace_;
+  List<double> kept_speed_;
   Looks begin_;              // those where the pieces of the step began
   double back_to_ = never;   // where that was, until shorter pieces are judged by four looks
   List<double> before_;      // guards where a run begins, a little later

@@ -64,6 +64,18 @@ class Solver {
   virtual void restart(double t, const Eigen::VectorXd& x, const Start& start) = 0;
   /// Takes one minor step, at most to t_stop, or to the first root in it.
   virtual StopReason advance(double t_stop) = 0;
+  // --- for a step that may be cut at a time that becomes known later
+
+  /// Takes the step that `advance` would take, and delivers nothing of it. Returns its end [s], or
+  /// -infinity where only `advance` can tell. To be called before each `advance` that may be recalled.
+  virtual double look_ahead(double t_stop) = 0;
+  /// Delivers the step of the last `look_ahead` up to t [s], or to a root before, whatever `advance`
+  /// has delivered since. The guards are those at the time of that call.
+  virtual StopReason recall(double t) = 0;
+  /// Nothing of that step is delivered any more; `advance` delivers it.
+  virtual void go_back() = 0;
+  /// [s] The end of the last step that was taken, also where it is not delivered yet.
+  virtual double end_of_step() const = 0;
   /// The state at a time within the last step.
   virtual void interpolate(double t, double* x) = 0;
   /// Degree in time of `interpolate` within the last step.

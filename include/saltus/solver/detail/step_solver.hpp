@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "saltus/solver/detail/locate.hpp"
 #include "saltus/solver/detail/solver.hpp"
@@ -56,12 +58,40 @@ class StepSolver : public Interface {
   StopReason advance(double t_stop) final {
     guards_->monitors.clear();
     if (delivered_) take_step(t_stop);
+    from_ = offset_;
     try {
       return deliver(t_stop);
     } catch (...) {
       take_back();
       throw;
     }
+  }
+
+  double look_ahead(double t_stop) final {
+    locator_.keep();
+    if constexpr (CutsSteps<Method>) return -std::numeric_limits<double>::infinity();
+    if (delivered_) take_step(t_stop);
+    from_ = offset_;
+    return t1_;
+  }
+
+  StopReason recall(double t) final {
+    go_back();
+    try {
+      return deliver_part(t - t0_, t);
+    } catch (...) {
+      take_back();
+      throw;
+    }
+  }
+
+  double end_of_step() const final { return t1_; }
+  void go_back() final {
+    guards_->monitors.clear();
+    locator_.restore();
+    if (from_ > 0.0) read_root(from_);
+    offset_ = from_;
+    delivered_ = false, time_ = t0_ + offset_;
   }
 
   void interpolate(double t, double* x) final {
@@ -132,15 +162,36 @@ class StepSolver : public Interface {
     return t1_ >= t_stop ? StopReason::stop_time : StopReason::step;
   }
 
+  /// Delivers the step to `to`, an offset inside it at t [s], or to a root before.
+  StopReason deliver_part(double to, double t) {
+    if constexpr (CutsSteps<Method>) {
+      if (is_whole()) self().cut(to);
+    }
+    const auto look = [this](double u, double* x) { inside(u, x); };
+    locator_.forget();
+    const bool stops =
+        offset_ < to && !guards_->active().all.empty() &&
+        locator_.find({t0_, offset_, to, nullptr, nullptr, part_points(to), points()}, look);
+    const double end = stops ? locator_.offset() : to;
+    read_root(end);
+    locator_.forget();  // its looks are those of a step that ends here
+    offset_ = end, delivered_ = false;
+    time_ = end < to ? t0_ + end : t;
+    return stops ? StopReason::root : StopReason::stop_time;
+  }
+
+  LookPoints* points() {
+    const bool by_values = guards_->scan_points || tangent_;
+    return by_values ? nullptr : self().look_points();
+  }
+
   /// Whether nothing of the step is delivered, and the method itself has taken it.
   bool is_whole() const noexcept { return offset_ == 0.0 && !tangent_; }
 
   template <class Inside>
   bool find_root(const Inside& inside) {
     const auto find = [&](const double* guards) {
-      const bool by_values = guards_->scan_points || tangent_;
-      LookPoints* const points = by_values ? nullptr : self().look_points();
-      return locator_.find({t0_, offset_, length_, x1_.data(), guards, scan_points(), points},
+      return locator_.find({t0_, offset_, length_, x1_.data(), guards, scan_points(), points()},
                            inside);
     };
     if constexpr (CutsSteps<Method>) {
@@ -163,6 +214,12 @@ class StepSolver : public Interface {
   int scan_points() {
     return guards_->scan_points ? *guards_->scan_points
                                 : std::max(thresholds::least_scan_points, self().even_looks());
+  }
+
+  /// As far apart as in the whole step.
+  int part_points(double to) {
+    const double share = (to - offset_) / length_;
+    return std::max(1, static_cast<int>(std::ceil(scan_points() * std::min(share, 1.0))));
   }
 
   void read_root(double root) {
@@ -202,6 +259,7 @@ class StepSolver : public Interface {
   detail::TangentStep tangent_;  // after the method's own step was refused
   Locator locator_;
   double time_ = 0.0, offset_ = 0.0, run_begun_ = 0.0;
+  double from_ = 0.0;  // offset_ before the last call of `advance`
   bool delivered_ = true;  // the last step is delivered to its end
   Eigen::VectorXd state_;  // the state at a root inside the last step
   Eigen::VectorXd next_state_;
