@@ -43,6 +43,15 @@ class Locator {
   /// Forgets the looks before a restart, which have no meaning after it.
   void forget() { stopping_.forget(), watching_.forget(); }
 
+  /// The step ends at a stop, and no guard fired in it: see GuardSet::beside_stop.
+  void note_beside_stop() { stopping_.note_beside_stop(), watching_.note_beside_stop(); }
+  /// The step ends at a stop, but it was searched to a root only, there or shortly before: each guard may
+  /// be at zero.
+  void pass_to_stop() {
+    forget();
+    guards_->beside_stop = guards_->active().all;
+  }
+
   double offset() const noexcept { return stopping_.offset(); }
 
  private:
