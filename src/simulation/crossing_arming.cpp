@@ -75,7 +75,7 @@ struct CrossingArming::Ask {
            flow().stops_at_jump(*group, slot(), from, before());
   }
   /// The execution of a queued guard is not at hand: it may come later, or have come already.
-  bool reset_turns() const { return !group->queued && arming->reset_turns(*group, k, from); }
+  bool reset_turns(int to) const { return !group->queued && arming->reset_turns(*group, k, to); }
   bool turned_round(int side) const { return arming->turned_round(*group, k, side); }
   bool stood_still() const { return arming->stood_still(*group, k); }
 };
@@ -181,7 +181,7 @@ void CrossingArming::carry_out(std::size_t k, const Arming& arming, double error
 }
 
 /// Whether the guard's own reset map, applied to the present state, turns the flow to the side
-/// `from`, which the guard came from.
+/// `from`.
 bool CrossingArming::reset_turns(const GuardGroup& group, std::size_t k, int from) {
   const PlanLeaf& of = machine_->plan().leaf(group.leaf);
   trial_ = machine_->x, trial_z_ = machine_->z;

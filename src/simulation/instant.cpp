@@ -177,7 +177,7 @@ void Instant::find_next() {
         contacts_.look_at_held(k);
         break;
       case AfterPass::see:
-        guards_->turn(k, sign_of(present_.g[k]));
+        guards_->turn(k, side_after_firing(present_.g[k], present_.now(k).location));
         guards_->set_base(k, present_.g[k]);
         break;
       case AfterPass::see_behind:
@@ -193,6 +193,16 @@ void Instant::find_next() {
 /// Whether the commit moved a guard, which was at zero beside the root of another one, off zero.
 bool Instant::left_zero_beside_root(std::size_t k) {
   return moves_off_zero(guards_->g[k], present_.g[k], crossings_.uncertainty(k));
+}
+
+/// Arms a guard that was at zero beside the root of another one, and is there still.
+void Instant::continue_beside_root(std::size_t k) {
+  if (left_zero_beside_root(k)) return;
+  const Guard& guard = (*guards_)[k];
+  const Departure::Side flow = flow_.side(plan().guard(guard.group), static_cast<Index>(k),
+                                          std::abs(present_.g[k]), 0);
+  const int side = side_beside_root(guard.direction, flow.side);
+  if (side != guard.side) guards_->wait(k, side, flow.rounding);
 }
 
 void Instant::look_at_crossing(std::size_t k) {
@@ -214,6 +224,7 @@ void Instant::arm(bool at_start) {
   guards_->see_reads(present_.g);
   for (const std::size_t k : guards_->active().all) {
     const Guard& guard = (*guards_)[k];
+    if (present_.now(k).turned_beside_root) continue_beside_root(k);
     guards_->g[k] = present_.g[k];
     guards_->set_base(k, present_.g[k]);
     if (!plan().guard(guard.group).is_crossing())

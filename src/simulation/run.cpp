@@ -82,7 +82,7 @@ void Run::initialize(const Context& context) {
   calendar_.begin(time_, context.settled());
   instant_.begin_queues(context);
   integration_.begin();
-  begun_ = over_ = false, taken_.reset();
+  begun_ = over_ = behind_event_ = false, taken_.reset();
   accepted_ = {.settled = context.settled()};
   endings_.begin(time_);
 }
@@ -171,12 +171,31 @@ void Run::depart(double from) {
 
 /// A step from `from` ends at time_. `arrives`: deliveries of other islands are due there.
 Status Run::arrive(double from, StopReason reason, double t_end, bool arrives) {
+  if (reason == StopReason::root) finish_at_event(from, t_end);
   if (endings_.passed_pole(from, time_, integration_)) fail_at_pole(from);
   accept(from);
   if (auto ending = endings_.after_step(time_, t_end - begin_.time(), integration_))
     return end(*ending);
   if (reason == StopReason::step && !arrives) return Status::reached_end;
   return settle(reason, t_end, false);
+}
+
+/// A root that is at the next time event but for rounding belongs to its instant.
+void Run::finish_at_event(double from, double t_end) {
+  const double event = calendar_.stop_at_root(from, time_);
+  if (event == time_) return;
+  struct Kept {
+    explicit Kept(Eigen::VectorXd& of) : x(of), values(of) {}
+    ~Kept() { x = values; }
+    Eigen::VectorXd &x, values;
+  };
+  const Kept kept(machine_.x);
+  machine_.x = integration_.at(event);
+  if (!instant_.roots_are_at(event, time_, t_end - event)) return;
+  time_ = event;
+  if (integration_.finish_step(event)) return;
+  guards_.beside_stop = guards_.active().all;  // the state is that at the root
+  behind_event_ = true;
 }
 
 /// The step from `from` to time_ is accepted: its rows, monitors and histories are kept.
@@ -215,6 +234,8 @@ Status Run::settle(StopReason reason, double t_end, bool at_start) {
   results_.trajectory.instant();
   due_.clear();
   const bool due = calendar_.due(time_) || arrives_by(time_);
+  if (!at_start && (due || time_ >= t_end) && instant_.meets_stop(time_, t_end - time_))
+    reason = StopReason::root;
   if (due || at_start) calendar_.take(time_, due_);
   if (reason != StopReason::root && !due && !at_start)
     return Status::reached_end;  // only the end of a major step
@@ -239,7 +260,7 @@ Outcome Run::run_instant(double t_end, bool at_start) {
   if (instant_.jump() != jump) histories_.changed();
   accepted_ = {.place = Place::machine, .settled = true};
   const bool cut = instant_.stops_earlier() && integration_.inside_step();
-  if (outcome.restart || cut)
+  if (std::exchange(behind_event_, false) || outcome.restart || cut)
     integration_.restart(time_, {.horizon = outcome.horizon, .flow = instant_.flow()});
   return outcome;
 }

@@ -29,7 +29,7 @@ GuardSet::GuardSet(const Plan& plan) : g(plan.look_slots, 1.0) {
 
 void GuardSet::clear() {
   ++version_;
-  fired_at_root.clear(), beside_root.clear(), monitors.clear(), kept_.clear();
+  fired_at_root.clear(), beside_root.clear(), beside_stop.clear(), monitors.clear(), kept_.clear();
   active_.clear();
   for (Guard& guard : guards_) {
     const GuardTraits traits = guard;

@@ -7,9 +7,9 @@ using namespace support;
 namespace {
 
 /// What the guard at the root does to the state.
-enum class Effect { stop_by_mode, stop_by_state, stop_by_number, put_there, go_on };
+enum class Effect { stop_by_mode, stop_by_state, stop_by_number, put_there, go_on, bounce };
 constexpr std::array effects{Effect::stop_by_mode, Effect::stop_by_state, Effect::stop_by_number,
-                             Effect::put_there, Effect::go_on};
+                             Effect::put_there, Effect::go_on, Effect::bounce};
 
 /// The guard beside it: the same curve in other words, so that roundings differ.
 enum class View { same, scaled, expanded };
@@ -35,6 +35,7 @@ void declare_root(Leaf& l, const Setup& setup) {
   const auto reset = [=](const At& at, Next& next) {
     if (setup.effect == Effect::stop_by_state) next.set_continuous_state({at.x[0], 0.0});
     if (setup.effect == Effect::put_there) next.set_continuous_state({setup.end, 0.0});
+    if (setup.effect == Effect::bounce) next.set_continuous_state({at.x[0], -at.x[1]});
     if (setup.effect == Effect::go_on) next.set_continuous_state(at.x);
     if (setup.effect == Effect::stop_by_number) next.set_discrete_state({0.0, at.z[1]});
   };

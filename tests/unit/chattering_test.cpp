@@ -78,6 +78,31 @@ TEST_CASE(
   CHECK(instants_until(beyond, {}, 1.1e-11, true, 30'000, 1.0) == 30'001);
 }
 
+namespace {
+
+/// How many instants, one each `gap` seconds, until it says so, while a state flows at `rate`.
+int executions_until(double gap, double rate, int most, double length_of_run) {
+  Chattering chattering = begun();
+  for (int i = 1; i <= most; ++i) {
+    const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, i * gap * rate);
+    const bool idle = chattering.idle(x);
+    if (chattering.chatters({}, {1.0 + i * gap, false, length_of_run, true}, idle, x)) return i;
+  }
+  return most + 1;
+}
+
+}  // namespace
+
+TEST_CASE("A million executions in a thousandth of the run, in which no state moves, chatter") {
+  constexpr int most = 2'500'000;
+  CHECK(executions_until(1e-9, 0.0, most, 10.0) <= 2'000'000);  // 1e-4 of the run
+  CHECK(executions_until(0.9e-9, 0.0, most, 1.0) <= 2'000'000);
+  CHECK(executions_until(1.1e-9, 0.0, most, 1.0) == most + 1);
+  // The state flows by 1e-7 of its tolerance from event to event, which adds up to a tenth of it in a million.
+  CHECK(executions_until(1e-9, 1e-6, most, 10.0) <= 2'000'000);
+  CHECK(executions_until(1e-9, 1.0, most, 10.0) == most + 1);
+}
+
 TEST_CASE("A state that moved by its tolerance since the last root is not idle") {
   Chattering chattering = begun();
   CHECK(chattering.idle(still));

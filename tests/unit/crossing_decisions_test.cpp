@@ -33,7 +33,7 @@ struct Answers {
   bool too_low() const { return said(low, "the height of the flight"); }
   bool leads_back() const { return said(back, "the flow before"); }
   bool stops_at_jump() const { return said(stops, "the distance from the jump"); }
-  bool reset_turns() const { return said(turns, "another reset"); }
+  bool reset_turns(int) const { return said(turns, "another reset"); }
   bool turned_round(int) const { return said(round, "the flow of the mode before"); }
   bool stood_still() const { return said(still, "the flow before"); }
   bool is_slope_sure() const { return said(sure, "whether the slope is sure"); }

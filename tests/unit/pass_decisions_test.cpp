@@ -24,6 +24,50 @@ TEST_CASE("a guard beside the root of another one has crossed only where the flo
     CHECK_FALSE(crossed_beside_root(direction, phase, unasked));
 }
 
+TEST_CASE("a guard beside the root of another one is on its armed side only if the flow takes it there") {
+  const auto direction =
+      GENERATE(Direction::positive_then_non_positive, Direction::negative_then_non_negative);
+  const int firing = firing_side(direction);
+  CHECK(side_beside_root(direction, -firing) == -firing);
+  CHECK(side_beside_root(direction, firing) == firing);
+  CHECK(side_beside_root(direction, 0) == firing);
+}
+
+TEST_CASE("a guard that fired has a side only beyond its error") {
+  for (const double sign : {-1.0, 1.0}) {
+    CHECK(side_after_firing(sign * 1e-9, 1e-12) == sign);
+    CHECK(side_after_firing(sign * 1e-12, 1e-12) == 0);
+    CHECK(side_after_firing(sign * 1e-300, 0.0) == sign);
+  }
+  CHECK(side_after_firing(0.0, 0.0) == 0);
+}
+
+TEST_CASE("a guard crosses at a stop by its value, by the flow a rounding later, or by its side") {
+  const auto unasked = []() -> int { throw std::logic_error("asked for the flow"); };
+  const auto to = [](int side) { return [side] { return side; }; };
+  for (const int side : {-1, 1}) {
+    Guard guard;
+    guard.set(Phase::armed, side, 0.0);
+    CHECK(crosses_at_stop(guard, 0.0, side, 0.0, unasked));       // it is there
+    CHECK(crosses_at_stop(guard, side, -side, 0.0, unasked));     // it is there a rounding later
+    CHECK_FALSE(crosses_at_stop(guard, side, side, 0.5, unasked));
+    CHECK(crosses_at_stop(guard, 0.4 * side, side, 0.5, to(-side)));
+    CHECK_FALSE(crosses_at_stop(guard, 0.4 * side, side, 0.5, to(side)));
+    CHECK_FALSE(crosses_at_stop(guard, 0.4 * side, side, 0.5, to(0)));
+    guard.direction = side > 0 ? Direction::negative_then_non_negative
+                               : Direction::positive_then_non_positive;  // not its direction
+    CHECK_FALSE(crosses_at_stop(guard, 0.4 * side, side, 0.5, unasked));
+    guard.direction = Direction::edge_detection;
+    guard.base = side;
+    CHECK_FALSE(crosses_at_stop(guard, side, side, 2.0, unasked));
+    CHECK(crosses_at_stop(guard, side, -side, 0.0, unasked));
+    for (const Phase phase : {Phase::unseen, Phase::waiting, Phase::resting, Phase::carried}) {
+      guard.set(phase, side, 0.0);
+      CHECK_FALSE(crosses_at_stop(guard, 0.0, -side, 1.0, unasked));
+    }
+  }
+}
+
 TEST_CASE("a guard that jumped at a root came back only if it is off zero, on its side before") {
   for (const double size : {1.0, 1e-300, 1e300}) {
     CHECK(came_back(1, size));

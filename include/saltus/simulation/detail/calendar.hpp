@@ -10,6 +10,7 @@
 
 #include "saltus/plan/plan.hpp"
 #include "saltus/simulation/detail/thresholds.hpp"
+#include "saltus/solver/detail/search_thresholds.hpp"
 
 namespace saltus {
 
@@ -62,6 +63,15 @@ class Calendar {
   double stop(double latest) const {
     const double t = next();
     return t <= latest + slack(latest) ? t : latest;
+  }
+
+  /// [s] The time of the next time event if a root at t, which was located before it in a step from `from`,
+  /// may be there but for rounding; otherwise t.
+  double stop_at_root(double from, double t) const {
+    const double event = next();
+    const double near = std::max(thresholds::beside_stop * (event - from),
+                                 thresholds::stop_roundings * thresholds::eps * std::abs(event));
+    return std::isfinite(event) && t < event && event - t <= near ? event : t;
   }
 
   /// Whether an event is due at t, within rounding: a run that ends at 0.3 has had the tick at 3 *

@@ -25,8 +25,9 @@ class Chattering {
     double length_of_run = 0.0;  ///< [s]
     bool executed = false;       ///< an execution set off another
   };
-  /// Before an instant: whether no state has moved by its tolerance since the last event.
-  bool idle(const Eigen::VectorXd& x) const;
+  /// Before an instant: whether no state has moved by its tolerance since the last event. The moves of all
+  /// events are added up.
+  bool idle(const Eigen::VectorXd& x);
   /// After an instant. True if the run chatters: `count` events since `since`.
   bool chatters(const Outcome& outcome, const Seen& seen, bool idle, const Eigen::VectorXd& x);
 
@@ -49,6 +50,7 @@ class Chattering {
   const Series& found() const noexcept { return found_; }
 
  private:
+  bool rests(const Seen& seen);
   bool find(const Series& series) {
     found_ = series;
     return true;
@@ -59,8 +61,11 @@ class Chattering {
   Series fluttering_;  // both sides of a relation lead back to its surface
   Series roots_;       // events
   Series idle_;        // no state moves between these events
+  Series resting_;     // the moves of no state add up to its tolerance over these events
   Series found_;
   Eigen::VectorXd at_event_;  // x at the last event
+  Eigen::VectorXd moved_;     // how far each state has flowed in the series `resting_`
+  bool moves_ = false;        // some state has moved by its tolerance in that series
 };
 
 }  // namespace saltus

@@ -119,6 +119,14 @@ bool leaves_along_surface(const CrossingFacts& guard, bool to_armed_side, const 
   return guard.entered && guard.effect && to_armed_side && ask.slope() == 0.0;
 }
 
+/// Whether a reset turned the flow round into the surface of a guard: see decide_at_zero.
+template <class Ask>
+bool meets_turned_flow(const CrossingFacts& guard, int flow_to, const Ask& ask) {
+  if (!guard.is_turned_to(flow_to)) return false;
+  const bool passed = guard.either() && guard.phase == Phase::waiting;
+  return !passed || (guard.reset && ask.reset_turns(guard.side));
+}
+
 /// Decides about a guard at zero that has not fired. A guard with an effect is in contact if the
 /// flow takes it to its firing side. It fires at once if the run begins so, if its mode was just
 /// entered and nothing that moves it moved before, or if a reset just turned the flow round. All
@@ -142,7 +150,8 @@ bool leaves_along_surface(const CrossingFacts& guard, bool to_armed_side, const 
 ///
 /// A guard of either direction is in contact at the start only if its slope is zero and the flow
 /// leads down. A reset turns the flow round only for a guard that is not on its firing side
-/// already.
+/// already. A guard of either direction that waits at zero has no firing side: it was passed through, and is
+/// in contact only if its own reset map sends the flow back.
 template <class Ask>
 Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
   const int armed = guard.armed_side();
@@ -153,7 +162,7 @@ Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask)
     arming.within = Arming::Within::tolerance;
   if (guard.put_at_zero && flow.side != armed)
     arming.then = Arming::Then::fire, arming.from = armed;
-  else if (guard.effect && (begins || guard.is_turned_to(flow.side)))
+  else if (guard.effect && (begins || meets_turned_flow(guard, flow.side, ask)))
     arming.then = Arming::Then::fire, arming.from = -flow.side;
   return arming;
 }
@@ -166,7 +175,7 @@ Arming decide_return(const CrossingFacts& guard, FlowSide flow, const Ask& ask, 
   const bool low = ask.too_low(), back = low || flow.side == -from;
   if (!back) return arming;
   if (std::abs(guard.g) > flow.error && !(guard.jumped && ask.stops_at_jump())) return arming;
-  if (guard.resets > 1 && ask.reset_turns())
+  if (guard.resets > 1 && ask.reset_turns(from))
     arming.then = Arming::Then::fire, arming.from = from;
   else if (low || ask.leads_back())
     arming.then = Arming::Then::rest, arming.side = from;

@@ -37,6 +37,8 @@ class Departure : public FlowProbe {
     longest_ = std::min(longest_, longest_step_);  // the author knows of something as quick
   }
 
+  using FlowProbe::guard_after;
+
   /// Error of a guard at the point of departure if the states are wrong by thirty tolerances.
   double tolerance(Index slot) {
     using namespace thresholds;

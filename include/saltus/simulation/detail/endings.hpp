@@ -56,7 +56,7 @@ class Endings {
   }
 
   /// Before an instant: whether no state has moved by its tolerance since the last root.
-  bool idle() const { return chattering_.idle(machine_->x); }
+  bool idle() { return chattering_.idle(machine_->x); }
   /// After an instant; `idle` is the answer before it.
   std::optional<Ending> after_instant(const Outcome& outcome, const Chattering::Seen& seen,
                                       bool idle, const Journal& journal);

@@ -43,6 +43,11 @@ class Flow {
     depart();
     return departure_.rounding(slot);
   }
+  /// The value of a guard on the flow d [s] later.
+  double value_after(double d, Index slot) {
+    depart();
+    return departure_.guard_after(d, slot);
+  }
   /// dg/dt along another f through the point that the last call departed from.
   double slope_along(const Eigen::VectorXd& f, const GuardGroup& group, Index slot) {
     return departure_.slope_along(f, group, slot);

@@ -46,6 +46,13 @@ class Instant {
   /// `longest` [s] is the time to the end of the run.
   Outcome run(double t, const std::vector<int>& due, double longest, bool at_start = false);
 
+  /// At a stop of the solver at t, where time events are due or the run ends: the guards whose crossing is
+  /// there but for rounding are among those that fired at the root. True if guards fire.
+  bool meets_stop(double t, double longest);
+  /// Whether the guards that fired at a root, which was located at `root` [s], are at zero at t too, within
+  /// their uncertainty. The machine has the state at t.
+  bool roots_are_at(double t, double root, double longest);
+
   /// Whether something may wait: an execution, or a delivery of an event wire.
   bool may_wait() const noexcept { return executions_.any() || deliveries_.any(); }
   /// [s] The time at which the next of these is due; null if nothing may wait.
@@ -94,6 +101,8 @@ class Instant {
   };
 
   void open(double t, const std::vector<int>& due, double longest);
+  bool crosses_at_stop(std::size_t k);
+  void fire_at_stop(std::size_t k);
   void turn_beside_root();
   bool collect();
   void judge_jumps(bool flipped);
@@ -103,6 +112,7 @@ class Instant {
   void find_next();
   void look_at_crossing(std::size_t k);
   bool left_zero_beside_root(std::size_t k);
+  void continue_beside_root(std::size_t k);
   void arm(bool at_start);
   void select_guards();
   bool follow_controls();

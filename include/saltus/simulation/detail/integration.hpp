@@ -59,6 +59,10 @@ class Integration {
   /// Whether the solver has stepped beyond the present time, to a root of the step.
   bool inside_step() const { return started_ && !solver_->at_step_end(); }
 
+  /// After a root a few roundings of the time before `stop`: goes on to the end of the step, if that is at
+  /// `stop`. Returns whether it is.
+  bool finish_step(double stop) { return solver_->finish_step(stop); }
+
   /// The present state.
   const Eigen::VectorXd& state() const { return started_ ? solver_->state() : machine_->x; }
   /// Copies the present state to the machine, and moves carried blocks onto their surfaces at t.

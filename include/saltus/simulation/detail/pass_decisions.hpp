@@ -23,6 +23,38 @@ bool crossed_beside_root(Direction direction, Phase phase, const FlowTo& flow_to
   return phase == Phase::armed && flow_to() == -firing_side(direction);
 }
 
+/// The side on which a guard continues that came from its firing side to zero, beside the root of another one,
+/// and has not left it. Only the flow may take it to its armed side: where an effect of that root turned the
+/// flow round, a guard that is a rounding beyond zero has not been there.
+///
+///     flow to        continues on
+///     armed side     its armed side
+///     firing side    its firing side
+///     none           its firing side
+constexpr int side_beside_root(Direction direction, int flow_to) {
+  const int firing = firing_side(direction);
+  return flow_to == -firing ? -firing : firing;
+}
+
+/// Whether a guard, armed and not yet across, crosses at a stop: its crossing is there but for rounding.
+/// `later` is its value by the flow a resolution of the time later. `flow_to()` is the side to which the flow
+/// takes it; it is asked for where the guard is at zero within its uncertainty.
+///
+///     fires at its value, or later   within its uncertainty   flow to        crosses
+///     yes                            -                        -              yes
+///     no                             yes                      other side     yes, if in its direction
+///     no                             yes                      its side       no: it turns back
+///     no                             yes                      none           no
+///     no                             no                       -              no
+template <class FlowTo>
+bool crosses_at_stop(const Guard& guard, double now, double later, double uncertainty,
+                     const FlowTo& flow_to) {
+  if (guard.phase != Phase::armed) return false;
+  if (guard.crossed(now) || guard.crossed(later)) return true;
+  if (guard.direction == Direction::edge_detection || !(std::abs(now) <= uncertainty)) return false;
+  return fires(guard.direction, guard.side, -guard.side) && flow_to() == -guard.side;
+}
+
 /// Whether a guard that jumped from one side at a root is back on it after the relations of the same root
 /// have flipped. The look at a root holds the relations before it. Beyond a jump they do not fit what they
 /// read, so what follows from them is wrong: a saturated output is beyond its limit.
@@ -48,6 +80,16 @@ constexpr AfterPass decide_after_pass(bool holds, bool fired, bool queued) {
   if (holds) return fired ? AfterPass::nothing : AfterPass::look_at_hold;
   if (!fired) return AfterPass::look;
   return queued ? AfterPass::see_behind : AfterPass::see;
+}
+
+/// The side of a guard after the pass in which it fired; 0: none. Within its error it is at zero, whatever the
+/// rounding of its root says: a later pass that moves it off zero does not carry it across.
+///
+///     value              side
+///     within the error   none
+///     beyond it          its sign
+inline int side_after_firing(double value, double error) {
+  return std::abs(value) <= error ? 0 : sign_of(value);
 }
 
 /// Whether a commit that moved a guard from `before` to `now` may have meant to put it at zero.

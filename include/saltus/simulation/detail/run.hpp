@@ -100,6 +100,7 @@ class Run {
   Status run_to(double t_end);
   Status begin(double t_end);
   Status step(double t_end);
+  void finish_at_event(double from, double t_end);
   void accept(double from);
   Status settle(StopReason reason, double t_end, bool at_start);
   Outcome run_instant(double t_end, bool at_start);
@@ -127,6 +128,7 @@ class Run {
   Context begin_;
   double time_ = 0.0;
   bool begun_ = false, over_ = false;
+  bool behind_event_ = false;  // the solver is a rounding before the present instant
   Accepted accepted_;
   mutable Caller caller_{};
   std::vector<int> due_;

@@ -167,6 +167,10 @@ inline constexpr double root_rounding = 1e6 * eps;
 /// this rate the run would have 1e11 events.
 inline constexpr std::int64_t idle_roots = 10'000;
 inline constexpr double idle_share = 1e-7;
+/// [events] So many within `resting_share` of the run, over which the moves of no state add up to its
+/// tolerance: at this rate the run would have 1e9 events.
+inline constexpr std::int64_t resting_events = 1'000'000;
+inline constexpr double resting_share = 1e-3;
 
 // --- crawling along a jump of a derivative: crawl.cpp (tests/laws/crawl_test.cpp)
 

@@ -69,6 +69,7 @@ class AutoSolver final : public Solver {
   double time() const override { return active().time(); }
   const Eigen::VectorXd& state() const override { return active().state(); }
   bool at_step_end() const override { return active().at_step_end(); }
+  bool finish_step(double t_stop) override { return active().finish_step(t_stop); }
 
   const SolverStatistics& statistics() const override {
     sum_ = explicit_->statistics();

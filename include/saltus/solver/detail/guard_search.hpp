@@ -15,6 +15,13 @@
 
 namespace saltus {
 
+/// Whether a guard may be at zero at a stop, within its rounding: its value there is far below its last
+/// `move`. A guard that jumps does not say how far its zero is.
+inline bool is_beside_stop(const Guard& guard, double value, double move) {
+  return guard.phase == Phase::armed && (guard.jumps || guard.stepped ||
+                                         std::abs(value) <= thresholds::beside_stop * std::abs(move));
+}
+
 /// Looks at the guards that are located together at a few interior points of a step, and searches
 /// the pieces in between one after the other. A step in which no guard could come to zero is not
 /// looked into, except from time to time.
@@ -76,6 +83,13 @@ class GuardSearch : private PacedSearch {
 
   /// The step ends here: offsets are relative to the next one from now on.
   void end_step(double length) { earlier_at_ -= length, oldest_at_ -= length; }
+
+  /// Notes the guards that may be at zero at the end of the step, at its last look.
+  void note_beside_stop() {
+    for (const std::size_t k : located_->slots)
+      if (is_beside_stop((*guards_)[k], guards_->g[k], guards_->g[k] - earlier_[k]))
+        guards_->beside_stop.push_back(k);
+  }
 
   using PacedSearch::keep, PacedSearch::restore;
   void begin_run() { forget(), PacedSearch::begin_run(); }

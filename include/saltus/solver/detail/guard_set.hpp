@@ -129,7 +129,7 @@ class GuardSet {
   /// undoes what was written since.
   void begin_search() {
     keeps_ = false;
-    fired_at_root.clear(), beside_root.clear();
+    fired_at_root.clear(), beside_root.clear(), beside_stop.clear();
   }
   void keep() {
     if (!keeps_) kept_ = guards_;
@@ -165,6 +165,7 @@ class GuardSet {
   List<double> g;                        ///< values at the last look
   std::vector<Firing> fired_at_root;     ///< the guards that crossed at the last root
   std::vector<std::size_t> beside_root;  ///< others within the resolution of that root from zero
+  std::vector<std::size_t> beside_stop;  ///< those that may be at zero where a step ends at a stop
   std::vector<MonitorHit> monitors;      ///< crossings of monitors in the last advance
   /// Interior points of a step with a look at the guards; empty: by the degree of the interpolant.
   std::optional<int> scan_points = {};

@@ -46,6 +46,14 @@ class Locator {
   /// Keeps what the looks so far have taught, and forgets what was learnt since.
   void keep() { stopping_.keep(), watching_.keep(); }
   void restore() { stopping_.restore(), watching_.restore(), forget(); }
+  /// The step ends at a stop, and no guard fired in it: see GuardSet::beside_stop.
+  void note_beside_stop() { stopping_.note_beside_stop(), watching_.note_beside_stop(); }
+  /// The step ends at a stop, but it was searched to a root only, there or shortly before: each guard may
+  /// be at zero.
+  void pass_to_stop() {
+    forget();
+    guards_->beside_stop = guards_->active().all;
+  }
 
   double offset() const noexcept { return stopping_.offset(); }
 

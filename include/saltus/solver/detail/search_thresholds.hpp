@@ -37,6 +37,12 @@ inline constexpr double jump_steepness = 1e6;
 /// root, 2/3, and that of a jump, 1. An interval that is narrowed by less than a thousand says nothing.
 /// tests/unit/narrow_test.cpp
 inline constexpr double jump_power = 0.75, jump_narrowing = 1e3;
+/// [eps |t|] A root so near to a stop is at the stop: some times the rounding of a time, and that of a
+/// state by which it was located. tests/semantics/instant_ties_test.cpp (as small)
+inline constexpr double stop_roundings = 64.0;
+/// [of its last move] A guard that is nearer to zero at a stop may be there by rounding: ten digits of the
+/// state, after moves that are a millionth of it. tests/unit/locate_test.cpp
+inline constexpr double beside_stop = 1e-4;
 /// [points] in a step of an interpolant of lower degree.
 /// tests/semantics/zeno_moving_frame_test.cpp
 inline constexpr int least_scan_points = 3;

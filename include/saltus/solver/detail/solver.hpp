@@ -92,6 +92,9 @@ class Solver {
   virtual const Eigen::VectorXd& state() const = 0;
   /// False if a root stopped the last step inside, and the rest of it is not delivered yet.
   virtual bool at_step_end() const = 0;
+  /// After a root inside the last step: delivers the rest of the step, which has not been searched, if it
+  /// ends at t_stop. False if it ends elsewhere: then nothing has changed.
+  virtual bool finish_step(double t_stop) = 0;
   /// Method in use now, for the statistics.
   virtual std::string method() const = 0;
 };

@@ -101,6 +101,15 @@ class StepSolver : public Interface {
       inside(t - t0_, x);
   }
 
+  bool finish_step(double t_stop) final {
+    if (delivered_ || tangent_ || t1_ != t_stop) return false;
+    machine_->guards(t1_, x1_.data(), guards_->g.data());
+    delivered_ = true;
+    time_ = t1_;
+    locator_.pass_to_stop();
+    return true;
+  }
+
   const SolverStatistics& statistics() const override { return statistics_; }
   /// The method, without what `method` adds for the statistics.
   virtual std::string name() const { return this->method(); }
@@ -154,11 +163,13 @@ class StepSolver : public Interface {
       offset_ = root;
       delivered_ = root >= length_;
       time_ = delivered_ ? t1_ : t0_ + root;
+      if (delivered_ && t1_ >= t_stop) locator_.pass_to_stop();
       return StopReason::root;
     }
     if (tangent_) tangent_.give_up();
     delivered_ = true;
     time_ = t1_;
+    if (t1_ >= t_stop) locator_.note_beside_stop();
     return t1_ >= t_stop ? StopReason::stop_time : StopReason::step;
   }
 
@@ -169,10 +180,13 @@ class StepSolver : public Interface {
     }
     const auto look = [this](double u, double* x) { inside(u, x); };
     locator_.forget();
+    const bool searched = offset_ < to && !guards_->active().all.empty();
+    if (!searched) guards_->begin_search();
     const bool stops =
-        offset_ < to && !guards_->active().all.empty() &&
+        searched &&
         locator_.find({t0_, offset_, to, nullptr, nullptr, part_points(to), points()}, look);
     const double end = stops ? locator_.offset() : to;
+    if (searched && !stops) locator_.note_beside_stop();
     read_root(end);
     locator_.forget();  // its looks are those of a step that ends here
     offset_ = end, delivered_ = false;
@@ -188,6 +202,11 @@ class StepSolver : public Interface {
   /// Whether nothing of the step is delivered, and the method itself has taken it.
   bool is_whole() const noexcept { return offset_ == 0.0 && !tangent_; }
 
+  /// Whether a root is so near to the end of the step that the state is as good as there.
+  bool is_at_end(double root) const {
+    return length_ - root <= thresholds::beside_stop * length_;
+  }
+
   template <class Inside>
   bool find_root(const Inside& inside) {
     const auto find = [&](const double* guards) {
@@ -197,7 +216,7 @@ class StepSolver : public Interface {
     if constexpr (CutsSteps<Method>) {
       before_ = guards_->g;
       if (!find(nullptr)) return false;
-      if (!is_whole() || !self().cut(locator_.offset())) return true;
+      if (!is_whole() || is_at_end(locator_.offset()) || !self().cut(locator_.offset())) return true;
       guards_->restore(), guards_->monitors.clear(), locator_.forget();
       guards_->g = before_;
       return find(nullptr);
