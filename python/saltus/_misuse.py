@@ -4,7 +4,6 @@ that are set in place.
 
 from __future__ import annotations
 
-
 from saltus import _core
 
 __all__ = ["answer"]
