@@ -2,7 +2,7 @@
 
 import pytest
 import saltus
-from saltus.library import Adder, Clock, Constant, Gain, Integrator, Pulse, Sine
+from saltus.library import Adder, Clock, Constant, Gain, Integrator, Pulse, Sine, StateMachine
 
 
 class Plant(saltus.LeafSystem):
@@ -86,6 +86,12 @@ ANSWERS = {
         "did you mean 'clock'",
     ),
     "a block as a signal": (recorded, "'twice' is a block; say which output: 'twice.out'"),
+    "a tuple as a transition": (
+        lambda: StateMachine(["off", "on"], [("off", "on")]), "expected Transition('closed', 'open'",
+    ),
+    "an open input": (
+        lambda: saltus.linearize(Gain(2.0, name="g")), "linearize(..., inputs={'in': 0.0})",
+    ),
     "no signal": (lambda: saltus.simulate(Plant(), (0, 1))["x"], "give the run recorded_signals"),
 }  # fmt: skip
 
