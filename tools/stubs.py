@@ -32,6 +32,9 @@ from saltus.system import System as AnySystem
 NUMBERS = "NDArray[np.float64]"
 DROPPED = re.compile(r"__(copy|deepcopy|getstate|setstate|eq|ne|hash|repr|str|index|int|all)__")
 
+REFUSED = {"State.__getitem__", "State.__iter__", "Context.__setattr__"}
+"""methods that only refuse what a type checker refuses without them"""
+
 REFINED: dict[str, dict[str, str]] = {
     "Context.__getitem__": {"system": "int | AnySystem"},
     "Context.with_subcontext": {"system": "int | AnySystem"},
@@ -117,7 +120,7 @@ class Refinement(ast.NodeTransformer):
         return node
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.FunctionDef | None:
-        if DROPPED.fullmatch(node.name):
+        if DROPPED.fullmatch(node.name) or f"{self.owner}.{node.name}" in REFUSED:
             return None
         if self.owner == "LeafSystem" and node.name.startswith("declare_"):
             node.args = ast.parse("def f(self, *arguments: Any, **none: Any): ...").body[0].args  # type: ignore[attr-defined]

@@ -19,7 +19,29 @@ __all__ = ["OPTIONS", "is_reset", "missing", "refuse", "refusing"]
 P = ParamSpec("P")
 R = TypeVar("R")
 
+SPAN = "the span is time_span=(begin, end), in seconds"
 OPTIONS = {
+    **dict.fromkeys(("t_span", "tspan", "span", "t_end", "tf", "stop_time", "StopTime"), SPAN),
+    **dict.fromkeys(("method", "solver", "integrator"), "it is ode_solver_method='auto'"),
+    **dict.fromkeys(("max_step", "max_step_size", "MaxStep"), "it is max_minor_step_size [s]"),
+    **dict.fromkeys(
+        ("dt", "step_size", "fixed_step"),
+        "the tolerances rtol and atol choose the steps; rows at even times are save_at=[...]",
+    ),
+    **dict.fromkeys(("t_eval", "teval", "saveat", "tout"), "it is save_at=[...]"),
+    **dict.fromkeys(("tol", "tolerance", "RelTol", "reltol"), "it is rtol"),
+    **dict.fromkeys(("AbsTol", "abstol"), "it is atol"),
+    **dict.fromkeys(
+        ("record", "signals", "outputs", "log"), "it is recorded_signals=['block.port']"
+    ),
+    **dict.fromkeys(
+        ("x0", "y0", "initial_state"),
+        "give a context: system.create_context().with_continuous_state([...])",
+    ),
+    **dict.fromkeys(
+        ("params", "parameters", "p"),
+        "give a context: system.create_context().with_parameters({...})",
+    ),
     "math_backend": "there is one backend, compiled; leave it out",
     "enable_tracing": "see system.explain(); python='called' switches it off",
     "enable_autodiff": "Saltus computes no gradients; leave it out",
@@ -46,6 +68,18 @@ DECLARATIONS = {
     "grad_guard": "Saltus computes no gradients; leave it out",
 }
 CALLED = {
+    **dict.fromkeys(("initial_condition", "ic", "x0", "InitialCondition"), "initial_state"),
+    **dict.fromkeys(("k", "K", "factor"), "gain"),
+    **dict.fromkeys(("amp", "a"), "amplitude"),
+    **dict.fromkeys(("freq", "omega", "w"), "frequency"),
+    **dict.fromkeys(("num", "b"), "numerator"),
+    **dict.fromkeys(("den",), "denominator"),
+    **dict.fromkeys(("Kp", "P"), "kp"),
+    **dict.fromkeys(("Ki", "I"), "ki"),
+    **dict.fromkeys(("Kd", "D"), "kd"),
+    **dict.fromkeys(("signs", "inputs"), "operators"),
+    **dict.fromkeys(("lower", "min", "low"), "lower_limit"),
+    **dict.fromkeys(("upper", "max", "high"), "upper_limit"),
     "period": "dt",
     "sample_time": "dt",
     "dt": "period",

@@ -46,7 +46,17 @@ def port_of(system: System, port: OutputPort | str, what: str = "recorded_signal
     *blocks, name = port.split(".")
     for block in blocks:
         system = block_of(system, block)
+    if name not in system.output_names and is_diagram(system):
+        _refuse_block(system, name, port, what)
     return system.output(name)
+
+
+def _refuse_block(system: System, name: str, port: str, what: str) -> None:
+    """ModelError for the path of a block in place of that of one of its outputs."""
+    for block in blocks_in(system):
+        if block.name == name:
+            listed = ", ".join(f"'{port}.{each}'" for each in block.output_names) or "it has none"
+            raise ModelError(f"{what}: '{port}' is a block; say which output: {listed}")
 
 
 def named(signals: Any) -> dict[str, OutputPort | str]:

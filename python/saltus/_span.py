@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from saltus import _core
 from saltus.errors import ModelError
 
 __all__ = ["ROUNDING", "rows_within", "span_of"]
@@ -24,11 +25,22 @@ def span_of(where: str, t_span: object, backward: bool = False) -> tuple[float, 
         begin, end = map(float, given)
     except (TypeError, ValueError):
         raise ModelError(
-            f"{where}: expected a span (begin, end) in seconds, found {t_span!r}"
+            f"{where}: expected a span (begin, end) in seconds, found {_shown(t_span)}"
         ) from None
     if not (end >= begin or (backward and end < begin)):
         raise ModelError(f"{where}: expected a span with begin <= end, found {begin} s to {end} s")
     return begin, end
+
+
+def _shown(t_span: object) -> str:
+    """What was given for a span, with what to write."""
+    if isinstance(t_span, (int, float)) and not isinstance(t_span, bool):
+        return f"{t_span!r}; write (0.0, {float(t_span)})"
+    if isinstance(t_span, _core.Context):
+        return "a context, which comes before the span: simulate(system, context, (begin, end))"
+    if hasattr(t_span, "ode_solver_method"):
+        return "options; write options=..., after the span"
+    return repr(t_span)
 
 
 def rows_within(where: str, save_at: Sequence[float], span: tuple[float, float]) -> Sequence[float]:

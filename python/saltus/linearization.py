@@ -12,7 +12,7 @@ from saltus import _core
 from saltus._engine import core_context, ports_of
 from saltus._signals import signals_in
 from saltus.callbacks import Callbacks
-from saltus.errors import ModelError
+from saltus.errors import InputNotConnectedError, ModelError
 from saltus.results.tables import extra
 from saltus.system import OutputPort, System
 
@@ -304,7 +304,15 @@ def linearize(
     own = {port.name: port for port in system.output_ports}
     signals = ports_of(own if outputs is None else signals_in(system, outputs))
     at = core_context(system.create_context() if context is None else context)
-    return Linearization(linearizer_of(system, named, signals, bool(one_sided), python).at(at))
+    try:
+        return Linearization(linearizer_of(system, named, signals, bool(one_sided), python).at(at))
+    except InputNotConnectedError as error:
+        open_ones = [name for name in system.input_names if name not in dict(named)]
+        if not open_ones:
+            raise
+        given = ", ".join(f"'{name}': 0.0" for name in open_ones)
+        said = f"{str(error).partition(';')[0]}; linearize(..., inputs={{{given}}}) gives a value"
+        raise InputNotConnectedError(said) from None
 
 
 def _named(inputs: Any) -> list[tuple[str, Any]]:

@@ -162,7 +162,7 @@ def test_errors_can_be_copied_and_pickled():
         ),
         (
             lambda b: b.connect(b.add(Constant(1.0, name="c")), b.add(Gain(1.0, name="k")).input()),
-            "expected a port, such as block.output_ports[0], found <Constant 'c'>",
+            "expected a port, found the block <Constant 'c'>; write block.output()",
         ),
         (
             lambda b: b.add(Gain(1.0, name="k")).input("into"),

@@ -130,7 +130,7 @@ def test_a_wrong_path_names_the_nearest(path, message):
 @pytest.mark.parametrize(
     "source, target, message",
     [
-        ("clock", "gain.in", "such as 'gain.out', found 'clock'"),
+        ("clack", "gain.in", "such as 'gain.out', found 'clack'; did you mean 'clock'"),
         ("clack.out", "gain.in", "found 'clack.out'; did you mean 'clock'"),
         ("clock.out", "gain.inn", "block 'gain' has no input 'inn'; did you mean 'in'"),
         ("clock.out", 3, "expected a port, such as block.input_ports"),

@@ -105,10 +105,10 @@ class DiagramBuilder(WiresEvents, ExportsPorts):
         ----------
         source
             An output of a block that was added, such as `block.output()` or "block.out"; it may
-            feed many inputs.
+            feed many inputs. Of a block with one output its name, "block", is enough.
         destination
             An input of a block that was added, such as `block.input("reset_trigger")` or
-            "block.reset_trigger"; it takes one wire.
+            "block.reset_trigger", or "block" of one with a single input; it takes one wire.
 
         Raises
         ------

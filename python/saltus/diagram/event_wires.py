@@ -162,5 +162,6 @@ class WiresEvents(BuilderParts):
     ) -> EventOutputPort | EventInputPort:
         if not isinstance(port, str):
             return port
-        block, name = self._from("connect_event", port)
+        kind = "event_output" if output else "event_input"
+        block, name = self._from("connect_event", port, kind)
         return block.event_output(name) if output else block.event_input(name)

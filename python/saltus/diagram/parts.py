@@ -16,6 +16,9 @@ def port_in_core(port: object, kind: type[OutputPort] | type[InputPort]) -> tupl
         wanted = "an input" if kind is InputPort else "an output"
         wanted = wanted if isinstance(port, (InputPort, OutputPort)) else "a port"
         example = "input_ports[0]" if kind is InputPort else "output_ports[0]"
+        if isinstance(port, System):
+            method = "input" if kind is InputPort else "output"
+            raise ModelError(f"expected {wanted}, found the block {port!r}; write block.{method}()")
         raise ModelError(f"expected {wanted}, such as block.{example}, found {port!r}")
     return core_port(port)
 
@@ -30,18 +33,22 @@ class BuilderParts:
     def _output(self, where: str, port: OutputPort | str) -> OutputPort:
         if not isinstance(port, str):
             return port
-        block, name = self._from(where, port)
+        block, name = self._from(where, port, "output")
         return block.output(name)
 
     def _input(self, where: str, port: InputPort | str) -> InputPort:
         if not isinstance(port, str):
             return port
-        block, name = self._from(where, port)
+        block, name = self._from(where, port, "input")
         return block.input(name)
 
-    def _from(self, where: str, path: str) -> tuple[System, str]:
-        """The block and the name of its port for a path such as "gain.out"."""
+    def _from(self, where: str, path: str, kind: str) -> tuple[System, str]:
+        """The block and the name of its port for a path such as "gain.out"; of a block with one
+        port of the kind, "output", "input", "event_output" or "event_input", also for its name.
+        """
         name, dot, port = path.partition(".")
+        if not dot and name in self._children:
+            return self._children[name], self._only(where, name, kind)
         if name not in self._children or not dot:
             known = _core.known_names(name, list(self._children))
             raise ModelError(
@@ -54,3 +61,15 @@ class BuilderParts:
                 f"take the exported port"
             )
         return self._children[name], port
+
+    def _only(self, where: str, name: str, kind: str) -> str:
+        """The name of the only port of a block; ModelError if there are several, or none."""
+        ports: list[str] = getattr(self._children[name], f"{kind}_names")
+        if len(ports) == 1:
+            return ports[0]
+        listed = ", ".join(f"'{name}.{port}'" for port in ports)
+        what = kind.replace("_", " ")
+        raise ModelError(
+            f"{where}: block '{name}' has "
+            + (f"{len(ports)} {what}s; say which: {listed}" if ports else f"no {what}")
+        )

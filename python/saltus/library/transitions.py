@@ -151,6 +151,11 @@ def events_of(transitions: Sequence[Transition]) -> list[str]:
     """The names of the events; a second transition between two states gets a number."""
     events: list[str] = []
     for each in transitions:
+        if not isinstance(each, Transition):
+            raise BlockParameterError(
+                "StateMachine: transitions: expected Transition('closed', 'open', trigger=...), "
+                f"found {each!r}"
+            )
         name = each.name or f"{each.source}_to_{each.target}"
         others = sum(other.partition(" ")[0] == name for other in events) if not each.name else 0
         events.append(f"{name} {others + 1}" if others else name)

@@ -274,7 +274,7 @@ class FileScene:
         ... updates = { tick = { period = "T", set = { x = 1.0 } } }
         ... ''')
         >>> scene.following(frozenset(["k"])).row({"k": 8.0})
-        {'k': array(8.), 'x': array(2.)}
+        {'k': array(8.), 'x[0]': array(2.)}
         >>> scene.following(frozenset(["T"])) is None
         True
         """

@@ -11,6 +11,20 @@ from saltus.errors import ModelError
 
 __all__ = ["Path", "Wrong", "found", "placed", "require_keys", "table_at"]
 
+ELSEWHERE = {
+    **dict.fromkeys(("initial", "init", "x0", "value"), "start"),
+    **dict.fromkeys(("derivative", "der", "ode", "dot", "equation"), "rate"),
+    **dict.fromkeys(("condition", "when", "zero", "expression"), "guard"),
+    **dict.fromkeys(("reset", "effect", "action", "then"), "set"),
+    **dict.fromkeys(("t_end", "end", "stop_time", "tf", "duration"), "until"),
+    **dict.fromkeys(("t_begin", "t0", "start_time", "start"), "begin"),
+    **dict.fromkeys(("solver", "ode_solver_method", "integrator"), "method"),
+    **dict.fromkeys(("recorded_signals", "outputs", "log"), "record"),
+    **dict.fromkeys(("connections", "links", "edges"), "wires"),
+    **dict.fromkeys(("params", "constants"), "parameters"),
+}
+"""keys of other formats -> those here, where a table has them"""
+
 Path = tuple[Any, ...]
 """keys and positions from the root of a scene: ("states", "v", "rate"), ("wires", 2)"""
 
@@ -60,7 +74,9 @@ def require_keys(
     known = list(known)
     for key in table:
         if key not in known:
-            raise Wrong((*path, key), f"unknown key '{key}'{known_names(key, known)}")
+            here = ELSEWHERE.get(key)
+            hint = f"; it is '{here}' here" if here in known else known_names(key, known)
+            raise Wrong((*path, key), f"unknown key '{key}'{hint}")
     for key in needed:
         if key not in table:
             raise Wrong(path, f"expected a key '{key}', found {', '.join(table) or 'no key'}")

@@ -7,6 +7,7 @@ from typing import Any
 
 from saltus import _core
 from saltus._engine import core_context
+from saltus._porting import OPTIONS, refuse
 from saltus._span import rows_within, span_of
 from saltus.options import SimulatorOptions
 from saltus.results import Results
@@ -87,6 +88,8 @@ def simulate(
     """
     if time_span is None and not isinstance(context, _core.Context):
         context, time_span = None, context  # simulate(system, (0.0, 1.0))
+    if time_span is None:  # which is called t_span and stop_time elsewhere
+        refuse("simulate", option_overrides, SimulatorOptions.__dataclass_fields__, OPTIONS)
     begin, end = span_of("simulate", time_span)
     if recorded_signals is not None:
         option_overrides["recorded_signals"] = recorded_signals

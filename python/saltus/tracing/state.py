@@ -62,6 +62,12 @@ class TracedState:
         """The relations, which no tape can read: the engine holds their truths."""
         refuse("reads state.relations", "a callback that reads a relation is called")
 
+    def __getitem__(self, key: Any) -> Any:
+        refuse("takes the state for an array", "read state.continuous_state")
+
+    def __iter__(self) -> Any:
+        refuse("takes the state for an array", "read state.continuous_state")
+
     def with_continuous_state(self, continuous_state: Any) -> TracedState:
         value = self._filled(continuous_state, self.continuous_state, "continuous state")
         return self._with("continuous_state", value, "x")

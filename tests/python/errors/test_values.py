@@ -113,7 +113,7 @@ def test_a_time_to_save_at_that_is_not_finite_is_refused(system):
         ((1.0, 0.0), "expected a span with begin <= end, found 1.0 s to 0.0 s"),
         ((0.0, math.nan), "expected a span with begin <= end, found 0.0 s to nan s"),
         ((math.nan, 1.0), "expected a span with begin <= end, found nan s to 1.0 s"),
-        (1.0, "expected a span (begin, end) in seconds, found 1.0"),
+        (1.0, "expected a span (begin, end) in seconds, found 1.0; write (0.0, 1.0)"),
         ((0.0, None), "expected a span (begin, end) in seconds, found (0.0, None)"),
         ("01", "expected a span (begin, end) in seconds, found '01'"),
         (("0", 1.0), "expected a span (begin, end) in seconds, found ('0', 1.0)"),

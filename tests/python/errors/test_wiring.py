@@ -121,7 +121,7 @@ def test_a_name_used_twice_is_refused_and_the_first_stays():
         (lambda d: d.create_context()[99], "no system with id 99 in this context. Known: "),
         (
             lambda d: saltus.simulate(d, d.create_context(), (0, 1)).outputs["y"],
-            "nothing was recorded under 'y'; there are none",
+            "nothing was recorded under 'y'; give the run recorded_signals={'name': 'block.port'}",
         ),
     ],
 )

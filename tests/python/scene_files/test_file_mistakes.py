@@ -437,3 +437,20 @@ def test_the_shelf_says_how_a_file_is_read():
 def test_unknown_parameters_of_a_scene():
     with pytest.raises(saltus.ModelError, match="did you mean 'e'"):
         loads('version = 1\n[parameters]\ne = 1\n[outputs]\ny = "e"', "toml", ee=2)
+
+
+@pytest.mark.parametrize(
+    ("text", "here"),
+    [
+        ("[states]\nx = { initial = 1.0, rate = 0 }", "start"),
+        ("[states]\nx = { start = 1.0, ode = 0 }", "rate"),
+        ("[states]\nx = {}\n[guards.g]\ncondition = 'x'", "guard"),
+        ("[states]\nx = {}\n[guards.g]\nguard = 'x'\nreset = { x = 1 }", "set"),
+        ("[states]\nx = {}\n[run]\nt_end = 1.0", "until"),
+        ("[states]\nx = {}\n[run]\nsolver = 'bdf'", "method"),
+        ("params = { k = 1 }\n[states]\nx = {}", "parameters"),
+    ],
+)
+def test_a_key_of_another_format_has_its_name_here(text, here):
+    with pytest.raises(SceneError, match=f"unknown key '[a-z_]+'; it is '{here}' here"):
+        loads(f"version = 1\n{text}\n")

@@ -5,10 +5,14 @@ import json
 import jsonschema
 import pytest
 import saltus
-from file_models import FILES
+from file_models import FILES, FOLDER
 from saltus import library
 from saltus.scene_files import dumps, first_scene, loads, schema
 from saltus.scene_files.files import SCHEMA
+from saltus.scene_files.leaf import GUARD_KEYS
+from saltus.scene_files.root import ROOT_KEYS
+from saltus.scene_files.run import KEYS as RUN_KEYS
+from saltus.scene_files.systems import SYSTEM_KEYS
 
 BALL = json.loads(dumps(loads(first_scene()), "json"))
 GAIN = {"version": 1, "blocks": {"a": {"block": "Gain", "gain": 2.0}}}
@@ -69,3 +73,31 @@ def test_the_whole_schema_knows_the_blocks_of_the_library(arguments):
     assert not whole.is_valid({"version": 1, "blocks": {"a": arguments}})
     assert whole.is_valid(GAIN)
     assert len(schema()["$defs"]["libraryBlock"]["oneOf"]) == len(library.__all__)
+
+
+def test_the_schema_has_the_keys_of_the_loader():
+    whole = json.loads(SCHEMA.read_text())
+    parts = whole["$defs"]
+    assert set(parts["run"]["properties"]) == set(RUN_KEYS)
+    assert set(parts["system"]["properties"]) == set(SYSTEM_KEYS)
+    assert set(whole["properties"]) == ROOT_KEYS | set(SYSTEM_KEYS)
+    assert set(parts["guard"]["properties"]) == set(GUARD_KEYS)
+
+
+WRONG_WIRES = {
+    "a list in a wire": [["a", "b"]],
+    "no arrow": ["a.fire b.synapse"],
+    "an unknown key": [{"wire": "a -> b", "wieght": 1.0}],
+    "no wire": [{"weight": 1.0}],
+    "a truth": [{"wire": "a -> b", "weight": True}],
+}
+
+
+@pytest.mark.parametrize("case", WRONG_WIRES)
+def test_the_schema_refuses_wrong_event_wires(validator, case):
+    good = json.loads(dumps(saltus.load_scene(FOLDER / "spiking_cells.toml"), "json"))
+    validator.validate(good)
+    wrong = {**good, "event_wires": WRONG_WIRES[case]}
+    assert not validator.is_valid(wrong)
+    with pytest.raises(saltus.ModelError):
+        loads(json.dumps(wrong), "json")
