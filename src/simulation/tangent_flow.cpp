@@ -2,8 +2,11 @@
 #include "saltus/simulation/detail/tangent_flow.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "saltus/simulation/detail/kinks.hpp"
 #include "saltus/tape/jacobian.hpp"
+#include "saltus/tape/switches.hpp"
 
 namespace saltus {
 
@@ -25,6 +28,9 @@ bool read_time(const tape::Graph& graph, const std::vector<tape::Node>& nodes) {
   return false;
 }
 
+/// [of a step] How far a state is followed to see whether it stays at a switch: far above rounding.
+constexpr double part_of_step = 1e-3;
+
 }  // namespace
 
 void fix_time(TangentProbe& probe, double t, const double* x, TangentColumns& at) {
@@ -34,21 +40,30 @@ void fix_time(TangentProbe& probe, double t, const double* x, TangentColumns& at
 }
 
 TangentFlow::TangentFlow(const Machine& machine, TangentProbe& probe)
-    : machine_(&machine), probe_(&probe), variables_(machine) {
-  make();
+    : machine_(&machine), probe_(&probe), variables_(machine) {}
+
+void TangentFlow::begin(const ParameterMoves& moves) {
+  std::vector<Index> moved;
+  for (Index i = 0; i < machine_->plan().np; ++i)
+    if (!moves.of_entry(i).empty()) moved.push_back(i);
+  const bool same = made_ && functions_ == machine_->functions() && moved == moved_;
+  moved_ = std::move(moved);
+  if (!same) make();
 }
 
 /// Makes the tapes of the present functions.
 void TangentFlow::make() {
-  functions_ = machine_->functions();
+  functions_ = machine_->functions(), made_ = true;
   const Plan& plan = machine_->plan();
   FlowGraph flow = flow_graph(plan);
-  rates_.reset(), guards_.reset(), chain_.reset();
+  rates_.reset(), guards_.reset(), chain_.reset(), switches_.reset();
   row_of_slot_.assign(static_cast<std::size_t>(plan.guard_slots), -1);
   if (!flow.obstacle.empty()) return chain(), void();
   std::vector<tape::Node> rows(flow.rates.begin(), flow.rates.end());
   reads_time_ = read_time(flow.graph, rows);
   rates_ = partials(flow, plan, rows);
+  const std::vector<tape::Node> switches = tape::switches_of(flow.graph, rows);
+  if (!switches.empty()) switches_.emplace(flow.graph, switches);
   rows.clear();
   for (std::size_t slot = 0; slot < flow.guards.size(); ++slot) {
     if (!flow.guards[slot]) continue;
@@ -59,17 +74,20 @@ void TangentFlow::make() {
 }
 
 TangentFlow::Partials TangentFlow::partials(FlowGraph& flow, const Plan& plan,
-                                            const std::vector<tape::Node>& rows) {
+                                            const std::vector<tape::Node>& rows) const {
   std::vector<tape::Node> variables;
   std::vector<std::pair<Variable, Index>> names;
+  const auto add_one = [&](Variable kind, Index i, tape::Node node) {
+    variables.push_back(node), names.emplace_back(kind, i);
+  };
   const auto add = [&](Variable kind, Index size, const auto& node_of) {
-    for (Index i = 0; i < size; ++i) variables.push_back(node_of(i)), names.emplace_back(kind, i);
+    for (Index i = 0; i < size; ++i) add_one(kind, i, node_of(i));
   };
   tape::Graph& graph = flow.graph;
   add(Variable::x, plan.nx, [&](Index i) { return graph.continuous_state(i); });
   add(Variable::z, plan.nz, [&](Index i) { return graph.input(0, i); });
   add(Variable::y, plan.ny, [&](Index i) { return graph.discrete_state(i); });
-  add(Variable::p, plan.np, [&](Index i) { return graph.parameter(i); });
+  for (const Index i : moved_) add_one(Variable::p, i, graph.parameter(i));
   add(Variable::t, 1, [&](Index) { return graph.time(); });
   std::vector<Entry> entries;
   std::vector<tape::Node> values;
@@ -107,6 +125,33 @@ void TangentFlow::exact_at(double t, const double* x, const TangentColumns& colu
     if (kind != Variable::p) continue;
     for (const auto& column : columns.by_entry(index)) by(row, column.number) += value * column.by;
   }
+}
+
+bool TangentFlow::rests_at_switch(double t, const double* x, const Eigen::VectorXd& flow) {
+  if (!switches_) return false;
+  const Index count = switches_->size();
+  Eigen::VectorXd here(count), there(count);
+  variables_.at(t, x, [&](const At& at) { switches_->evaluate(at, here.data()); });
+  if (!has_switch_at_limit(here.data(), count / tape::numbers_of_switch)) return false;
+  const double step = probe_->sizes().step;
+  const double ahead = step > 0.0 ? part_of_step * step : part_of_step * std::max(1.0, std::abs(t));
+  const Eigen::VectorXd later = VectorView(x, flow.size()) + ahead * flow;
+  variables_.at(t + ahead, later.data(),
+                [&](const At& at) { switches_->evaluate(at, there.data()); });
+  for (Index k = 0; k < count; k += tape::numbers_of_switch)
+    if (has_switch_at_limit(&here[k], 1) && has_switch_at_limit(&there[k], 1)) return true;
+  return false;
+}
+
+bool TangentFlow::bends(double t, const double* x, const TangentDirection& along) {
+  const auto values_at = [&](double shift) -> Eigen::ArrayXd {
+    Machine& probe = probe_->at(x, along, shift);
+    Eigen::VectorXd values(rates_->tape.size());
+    FlowVariables(probe).at(t, probe.x.data(),
+                            [&](const At& at) { rates_->tape.evaluate(at, values.data()); });
+    return values.array();
+  };
+  return has_kink(values_at, probe_->reach(x, along));
 }
 
 FlowChain& TangentFlow::chain() { return chain_ ? *chain_ : chain_.emplace(*machine_, *probe_); }
@@ -170,15 +215,16 @@ GuardTangent TangentFlow::exact_guard(double t, const double* x, Index row,
 bool TangentFlow::autonomous() const { return exact() && !reads_time_; }
 
 std::string TangentFlow::describe() const {
-  if (exact()) return "by exact derivatives of the flow";
+  if (flow_graph(machine_->plan()).obstacle.empty()) return "by exact derivatives of the flow";
+  const FlowChain chain(*machine_, *probe_);
   const auto listed = [](std::string_view before, const std::vector<std::string>& names) {
     std::string all;
     for (const std::string& one : names) all += (all.empty() ? before : ", "), all += one;
     return all;
   };
   return "by exact derivatives of the flow" +
-         listed(", declared derivatives of ", chain_->called(true)) +
-         listed(", central differences of ", chain_->called(false));
+         listed(", declared derivatives of ", chain.called(true)) +
+         listed(", central differences of ", chain.called(false));
 }
 
 }  // namespace saltus

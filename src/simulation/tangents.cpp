@@ -53,6 +53,7 @@ void Tangents::begin(const Context& start) {
   columns_.x.setZero(plan.nx, m), columns_.z.setZero(plan.nz, m), columns_.y.setZero(plan.ny, m);
   const std::vector<ParameterDirection> directions = directions_of(all, start);
   columns_.p = moves_of(directions, plan.np);
+  flow_.begin(*columns_.p);
   Eigen::MatrixXd atol(plan.nx, m);
   for (Index k = 0; k < m; ++k) {
     const Kind kind = nth(all, k).entry.kind;
@@ -77,6 +78,7 @@ void Tangents::begin(const Context& start) {
   begin_signals(start.with_computed(plan.computed));
   for (Index k = 0; k < m; ++k)
     if (const std::string& why = nth(directions, k).obstacle; !why.empty()) lose(k, "", why);
+  look_at_kinks();
   open_trajectory();
 }
 

@@ -95,6 +95,7 @@ void Tangents::close() {
   one_sided_.judge(t_, *machine_, columns_, fixed, cause());
   if (!flow_.autonomous()) columns_ = std::move(fixed);
   phase_ = Phase::between;
+  look_at_kinks();
   variation_->forget();
   if (options_->dense_output) results_->sensitivities.trajectory.instant(probe_.sizes());
 }

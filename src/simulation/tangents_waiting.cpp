@@ -27,6 +27,9 @@ constexpr double guard_rounding = 1e3 * thresholds::eps;
 /// event: its rounding is far below, unless its terms cancel to a billionth.
 constexpr double beside_event = 1e-9;
 
+/// A parameter may move a state behind so many integrators.
+constexpr int derivatives_ahead = 4;
+
 /// Whether a guard that moves from zero with this slope would fire if it came from the other side.
 bool fires_along(Direction direction, double slope) {
   return slope < 0.0 ? fires(direction, 1, -1) : fires(direction, -1, 1);
@@ -47,6 +50,32 @@ void Tangents::look_at_waiting() {
   const Eigen::VectorXd flow = probe_.flow(t_, machine_->x.data());
   for (const std::size_t k : active)
     if (waits(k) && !(*guards_)[k].monitor) look_at_waiting(k, flow);
+}
+
+/// A flow with a kink has no derivative for a state that rests at it, as x' = -|x| at x = 0. A state that
+/// goes through it has one.
+void Tangents::look_at_kinks() {
+  const double* x = machine_->x.data();
+  if (!flow_.rests_at_switch(t_, x, probe_.flow(t_, x))) return;
+  Eigen::MatrixXd a, b;
+  flow_.at(t_, x, columns_, a, b);
+  for (Index k = 0; k < size(); ++k)
+    if (!gaps_.lost(k) && bends_soon(k, a, b))
+      lose(k, "", "the flow has a kink, at which the state rests");
+}
+
+/// Whether a column leads off the kink, now or as the derivatives of S = A S + b lead it on.
+bool Tangents::bends_soon(Index k, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  const double* x = machine_->x.data();
+  TangentDirection along = columns_.column(k);
+  along.t = 0.0;
+  if (flow_.bends(t_, x, along)) return true;
+  Eigen::VectorXd later = a * columns_.x.col(k) + b.col(k);
+  for (int i = 0; i < derivatives_ahead && !later.isZero(0.0); ++i) {
+    if (flow_.bends(t_, x, {.x = later.data()})) return true;
+    later = a * later;
+  }
+  return false;
 }
 
 double Tangents::rounding_of(const GuardTangent& guard, const Eigen::VectorXd& flow) const {

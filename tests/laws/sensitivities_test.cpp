@@ -97,6 +97,35 @@ TEST_CASE("a jump of the flow without an event has a gap; a kink, and a jump in 
   CHECK(gaps([](double, double x) { return -x * x * x; }) == 0);
 }
 
+TEST_CASE("a state that rests at a kink of a formula has a gap, and one that goes through has none",
+          "[sensitivity]") {
+  const auto gaps = [](double start, const auto& rate) {
+    const Leaf leaf("leaf", [&](Leaf& l) {
+      const ParameterIndex p = l.declare_dynamic_parameter("p", 0.0);
+      l.declare_continuous_state({.initial = vec({start}), .formula = Formula([=](const auto& at) {
+                                                             return rate(at.x(0), at.p(p, 0));
+                                                           })});
+    });
+    const Results results =
+        simulate(leaf, leaf.create_context(), {0.0, 1.0}, {.sensitivity = {"x[0]", "p"}});
+    std::vector<std::string> lost;
+    for (const SensitivityGap& gap : results.sensitivities.gaps) lost.push_back(gap.parameter);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const bool gone = std::isnan(results.sensitivities.continuous_state[k]);
+      CHECK(gone == (std::ranges::count(lost, k == 0 ? "x[0]" : "p") == 1));
+    }
+    return lost;
+  };
+  using Names = std::vector<std::string>;
+  using std::abs;
+  CHECK(gaps(0.0, [](const auto& x, const auto& p) { return p - abs(x); }) == Names{"x[0]", "p"});
+  CHECK(gaps(0.0, [](const auto& x, const auto&) { return -abs(x) * x; }) == Names{});
+  CHECK(gaps(1.0, [](const auto& x, const auto&) { return -abs(x); }) == Names{});
+  CHECK(gaps(-0.5, [](const auto& x, const auto&) { return 1.0 + abs(x); }) == Names{});
+  CHECK(gaps(0.0, [](const auto& x, const auto&) { return 1.0 + abs(x); }) == Names{});
+  CHECK(gaps(1.0, [](const auto& x, const auto& p) { return abs(p) - x; }) == Names{"p"});
+}
+
 TEST_CASE("a ball that is thrown down from its floor has a gap: a little lower it falls",
           "[sensitivity][ball]") {
   const saltus::Scene scene = models::bouncing_ball();

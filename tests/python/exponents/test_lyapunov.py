@@ -101,7 +101,7 @@ class BallOnTable(saltus.LeafSystem):
         return state.with_continuous_state([y, (1.0 + self.e) * table - self.e * v])
 
 
-@pytest.mark.parametrize("e", [0.8, 0.9])
+@pytest.mark.parametrize("e", [0.87, 0.9])  # with less, rounding decides whether it ever lies still
 def test_each_impact_of_a_ball_on_a_table_has_the_determinant_of_e_squared(e):
     """Flight keeps the volume, so sum T = 2 n ln(e) with the number n of impacts."""
     found = saltus.lyapunov(BallOnTable(e=e), time=100.0, transient=10.0)

@@ -294,6 +294,13 @@ def test_a_kink_at_its_root_keeps_its_derivative():
     assert results.sensitivities.continuous_state[1] == pytest.approx([1.0], abs=1e-7)
 
 
+def test_a_state_that_rests_at_a_kink_of_a_traced_function_has_a_gap():
+    """x' = -max(x, 0): dx(1)/dx(0) is 1/e from above, and 1 from below."""
+    block = leaf([0.0], lambda t, s: [-np.maximum(s.continuous_state[0], 0.0)])
+    results = saltus.simulate(block, (0.0, 1.0), sensitivity=["x[0]"], python="traced")
+    lost(results, "the flow has a kink, at which the state rests")
+
+
 @pytest.mark.parametrize("block", ["Abs", "Sign", "Saturate", "DeadZone", "LookupTable1d", "Relay"])
 def test_a_relation_that_rests_at_its_root_has_a_gap(block):
     """y' = f(s) of a state s that stays at the kink or jump of f: dy/ds has two values, or none."""

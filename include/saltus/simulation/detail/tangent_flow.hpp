@@ -28,11 +28,19 @@ class TangentFlow {
  public:
   TangentFlow(const Machine& machine, TangentProbe& probe);
 
+  /// A run begins whose columns move these parameters; the derivatives by the others are not computed.
+  void begin(const ParameterMoves& moves);
   /// dxdot/dx at (t, x), and dxdot of each column at a fixed time and a fixed state,
   /// which is a column of `by`.
   void at(double t, const double* x, const TangentColumns& columns, Eigen::MatrixXd& jacobian,
           Eigen::MatrixXd& by);
   GuardTangent guard(double t, const double* x, Index slot, const TangentColumns& columns);
+
+  /// Whether a switch of the flow (see tape/switches.hpp) is at its limit at (t, x), and stays there
+  /// where the state follows the flow. Where a function is called, no switch is known.
+  bool rests_at_switch(double t, const double* x, const Eigen::VectorXd& flow);
+  /// Whether the derivatives of the flow jump beside (t, x) along a direction.
+  bool bends(double t, const double* x, const TangentDirection& along);
 
   /// Whether the derivatives of the flow are exact.
   bool exact() const noexcept { return rates_.has_value(); }
@@ -61,7 +69,7 @@ class TangentFlow {
   };
 
   void make();
-  static Partials partials(FlowGraph& flow, const Plan& plan, const std::vector<tape::Node>& rows);
+  Partials partials(FlowGraph& flow, const Plan& plan, const std::vector<tape::Node>& rows) const;
   void evaluate(Partials& of, double t, const double* x);
   void exact_at(double t, const double* x, const TangentColumns& columns, Eigen::MatrixXd& jacobian,
                 Eigen::MatrixXd& by);
@@ -73,11 +81,14 @@ class TangentFlow {
   const Machine* machine_;
   TangentProbe* probe_;
   FlowVariables variables_;
+  bool made_ = false;
   int functions_ = -1;              // of the machine, when the tapes were made
+  std::vector<Index> moved_;        // the entries of p for which they were made
   std::optional<FlowChain> chain_;  // made where a function is called
   bool reads_time_ = true;
   std::optional<Partials> rates_, guards_;
-  std::vector<Index> row_of_slot_;  // of `guards_`; -1: the guard is called
+  std::optional<tape::Tape> switches_;  // of the rates, if they have any
+  std::vector<Index> row_of_slot_;      // of `guards_`; -1: the guard is called
 };
 
 }  // namespace saltus

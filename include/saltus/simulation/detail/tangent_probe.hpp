@@ -27,6 +27,10 @@ class TangentProbe {
   /// The same without a shift.
   Machine& at(const double* x) { return at(x, {}, 0.0); }
 
+  /// The shift along a direction that moves no value by more than its size; 0 if none moves.
+  double reach(const double* x, const TangentDirection& along) const {
+    return shift_of(x, along, 0.0);
+  }
   /// Notes how large the values are, and how long a step is [s].
   void note(const double* x, double step);
   /// What was noted.

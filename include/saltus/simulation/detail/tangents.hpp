@@ -133,6 +133,8 @@ class Tangents {
                    bool first);
   void look_beside(std::size_t guard, double g, const TangentColumns& until,
                    const Eigen::VectorXd& flow);
+  void look_at_kinks();
+  bool bends_soon(Index k, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
   double rounding_of(const GuardTangent& guard, const Eigen::VectorXd& flow) const;
   void look_at_waiting();
   void look_at_waiting(std::size_t guard, const Eigen::VectorXd& flow);

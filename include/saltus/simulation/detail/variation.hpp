@@ -18,6 +18,7 @@ namespace saltus {
 class Variation {
  public:
   static constexpr int stages = 5;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   /// A(t), n by n, and b(t), n by m.
   using Equation = std::function<void(double t, Eigen::MatrixXd& a, Eigen::MatrixXd& b)>;
   struct Tolerances {
@@ -57,7 +58,7 @@ class Variation {
   Tolerances tolerances_;
   std::vector<Piece> pieces_;
   std::vector<Eigen::MatrixXd> a_, b_;
-  Eigen::MatrixXd system_, right_;
+  Rows system_;  // with its right-hand sides behind it
 };
 
 }  // namespace saltus
