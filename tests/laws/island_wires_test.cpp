@@ -312,7 +312,7 @@ TEST_CASE("a failure of one wired island names its block and its time", "[laws][
   const Results common = run(scene, 3.0, {});
   CHECK(results.status == Status::failed);
   CHECK(results.block == "bad");
-  CHECK(results.message == common.message);
+  CHECK(contains(results.message, "s: 'bad.fail' set a state that is not finite"));
   CHECK_THAT(results.context.time(), WithinAbs(0.75, 1e-9));
   CHECK(results.events.size() == common.events.size());
 }

@@ -203,7 +203,7 @@ def test_event_wires_without_a_delay_join_islands(delay):
 def test_rows_of_wired_islands_are_those_of_one_common_step():
     scene = pair()
     at = np.linspace(0.0, 0.05, 101)
-    recorded = {name: scene.subsystem(name).output("v") for name in ("a", "b")}
+    recorded = {name: f"{name}.v" for name in ("a", "b")}
     options = {
         "recorded_signals": recorded,
         "save_at": at,
