@@ -131,8 +131,8 @@ class SimulatorOptions:
     islands: bool = False
     """True lets islands step apart: parts of the scene that read nothing of each other have steps,
     events and rows of their own, so that n balls cost as much as n runs of one ball. Each island
-    runs as if it were alone, to the bit; see `Results.islands`. A later version may change the
-    default
+    runs as if it were alone, to the bit; see `Results.islands`. Event wires with delays lead from
+    island to island. A later version may change the default
     """
     island_threads: int = 1
     """the number of threads on which islands run, 0 for as many as the machine has cores; the

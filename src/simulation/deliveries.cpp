@@ -46,7 +46,8 @@ void Deliveries::begin(const Context& from) {
   queue_.clear(), outside_.clear();
   fired_.clear(), arriving_.clear();
   if (from.pending() == nullptr) return;
-  for (const PendingDelivery& one : from.pending()->deliveries) queue_.add(one.due, batch_of(plan(), one));
+  for (const PendingDelivery& one : from.pending()->deliveries)
+    queue_.add(one.due, batch_of(plan(), one));
   queue_.open();
 }
 

@@ -27,8 +27,7 @@ double IslandRuns::run_wired(double t_end) {
 void IslandRuns::begin_again() {
   for (Island& island : all_) island.run->initialize(island.begin);
   schedule_->begin(begin_);
-  for (const double piece : ends_)
-    schedule_->run(piece, piece, threads(), [] { return false; });
+  for (const double piece : ends_) schedule_->run(piece, piece, threads(), [] { return false; });
 }
 
 /// The counts of all islands while they run.

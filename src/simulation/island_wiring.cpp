@@ -85,8 +85,7 @@ std::vector<PendingDelivery> IslandSchedule::waiting(double t) const {
     const auto& [due, number] = *one;
     const EventWires::Batch& batch = plan_->event_wires.batches[number];
     const detail::EventOrigin from = detail::event_origin_of(*plan_, batch.source);
-    if (inside_[number] == 0)
-      all.push_back({from.leaf, from.event, from.entry, batch.delay, due});
+    if (inside_[number] == 0) all.push_back({from.leaf, from.event, from.entry, batch.delay, due});
   }
   return all;
 }

@@ -80,7 +80,8 @@ StopReason Run::step_again(double& to, double t_stop) {
 
 void Run::cut_at(double t) {
   t_end_ = t;
-  if (taken_ && !taken_->failed && !(time_ < t)) integration_.cut(taken_->to, taken_->reason, time_);
+  if (taken_ && !taken_->failed && !(time_ < t))
+    integration_.cut(taken_->to, taken_->reason, time_);
   if (!(time_ < t)) taken_.reset();
   while (taken_ && !over()) commit(t);
 }

@@ -140,7 +140,8 @@ TEST_CASE("wired islands have the same bits on any number of threads", "[laws][i
     CHECK(*some.context.pending() == *one.context.pending());
     REQUIRE(some.events.size() == one.events.size());
     for (std::size_t i = 0; i < one.events.size(); ++i)
-      CHECK((some.events[i].time == one.events[i].time && some.events[i].block == one.events[i].block));
+      CHECK((some.events[i].time == one.events[i].time &&
+             some.events[i].block == one.events[i].block));
   }
 }
 
@@ -155,9 +156,9 @@ TEST_CASE("a delivery that is far away cuts no step", "[laws][islands]") {
   net.wire("often", "beat", "digits", "digit", 0.0, 0.001);
   net.wire("once", "beat", "circle", "count", 1.0, 0.1);
   const Diagram scene = net.builder.build();
-  const Results results = run(
-      scene, 5.0,
-      {.rtol = 1e-4, .atol = 1e-6, .ode_solver_method = Method::dopri5, .islands = true});
+  const Results results =
+      run(scene, 5.0,
+          {.rtol = 1e-4, .atol = 1e-6, .ode_solver_method = Method::dopri5, .islands = true});
   CHECK(results.islands.size() == 5);
   CHECK(results.context.discrete_state()[0] == 1.0);
   const auto steps = [&](std::size_t k) { return results.islands[k].statistics.steps; };
@@ -174,8 +175,7 @@ TEST_CASE("a step that fails beyond a delivery is taken up to it", "[laws][islan
   net.wire("beats", "beat", "cliff", "back", 0.25, 0.25);
   net.wire("beats", "beat", "cliff", "back", 0.0, 0.0625);
   const Diagram scene = net.builder.build();
-  const Results results =
-      run(scene, 4.0, {.ode_solver_method = method, .islands = true});
+  const Results results = run(scene, 4.0, {.ode_solver_method = method, .islands = true});
   INFO(results.message);
   CHECK(results.status == Status::reached_end);
   CHECK_THAT(results.context.continuous_state()[0], WithinAbs(1.0, 1e-9));  // 0.25 at 3.25 s
@@ -233,7 +233,8 @@ TEST_CASE("deliveries of one time keep the order of their wires, within an islan
   net.add(beats("near", {1.5}));
   net.wire("a", "beat", "digits", "digit", 1.0, 0.5);
   net.wire("near", "beat", "digits", "digit", 2.0);  // no delay: one island
-  net.wire("b", "beat", "digits", "digit", 3.0, 0.5), net.wire("near", "beat", "digits", "digit", 4.0);
+  net.wire("b", "beat", "digits", "digit", 3.0, 0.5),
+      net.wire("near", "beat", "digits", "digit", 4.0);
   const Diagram scene = net.builder.build();
   const Results results = run(scene, 1.75, {.islands = islands});
   CHECK(results.context.discrete_state()[0] == (1324.0));
@@ -244,8 +245,7 @@ TEST_CASE("a step limit of one wired island ends the run", "[laws][islands]") {
   Network net;
   net.add(cell("a", 3.0)), net.add(cell("b", 2.0));
   net.wire("a", "fire", "b", "synapse", 0.2, 0.5);
-  const Results results =
-      run(net.builder.build(), 50.0, {.max_major_steps = 20, .islands = true});
+  const Results results = run(net.builder.build(), 50.0, {.max_major_steps = 20, .islands = true});
   CHECK(results.status == Status::step_limit);
   CHECK(results.context.time() < 50.0);
   CHECK(results.events.times("b.fire").size() > 5);
@@ -299,11 +299,10 @@ TEST_CASE("a failure of one wired island names its block and its time", "[laws][
   net.add(cell("a", 3.0)), net.add(cell("b", 2.0));
   net.add(Leaf("bad", [](Leaf& l) {
     l.declare_continuous_state({.initial = vec({0.0}), .ode = [](const At&) { return 1.0; }});
-    l.declare_zero_crossing({.name = "fail",
-                             .guard = [](const At& at) { return at.x[0] - 0.75; },
-                             .reset_map = [](const At&, Next& next) {
-                               next.set_continuous_state({std::nan("")});
-                             }});
+    l.declare_zero_crossing(
+        {.name = "fail",
+         .guard = [](const At& at) { return at.x[0] - 0.75; },
+         .reset_map = [](const At&, Next& next) { next.set_continuous_state({std::nan("")}); }});
   }));
   net.wire("a", "fire", "b", "synapse", 0.2, 0.5), net.wire("b", "fire", "a", "synapse", 0.2, 0.1);
   net.wire("bad", "fail", "a", "synapse", 0.1, 0.1);
@@ -312,7 +311,7 @@ TEST_CASE("a failure of one wired island names its block and its time", "[laws][
   const Results common = run(scene, 3.0, {});
   CHECK(results.status == Status::failed);
   CHECK(results.block == "bad");
-  CHECK(results.message == common.message);
+  CHECK(contains(results.message, "s: 'bad.fail' set a state that is not finite"));
   CHECK_THAT(results.context.time(), WithinAbs(0.75, 1e-9));
   CHECK(results.events.size() == common.events.size());
 }

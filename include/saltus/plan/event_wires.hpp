@@ -45,11 +45,11 @@ struct EventWires {
   std::vector<EventWire> declared = {};
   std::vector<Sender> senders = {};  ///< of wires to other islands, each once, in order
   bool receives_outside = false;     ///< wires of other islands may lead here
-  List<Target> targets = {};   ///< batch after batch, each in the order of declaration
-  List<Batch> batches = {};    ///< by source, then by delay
-  List<int> first_batch = {};  ///< of each source, and of the source after the last
-  List<char> sends_outside = {};  ///< of each source; empty if there are no senders
-  Place weight = {};              ///< of the weight under way, behind the inputs of its reset map
+  List<Target> targets = {};         ///< batch after batch, each in the order of declaration
+  List<Batch> batches = {};          ///< by source, then by delay
+  List<int> first_batch = {};        ///< of each source, and of the source after the last
+  List<char> sends_outside = {};     ///< of each source; empty if there are no senders
+  Place weight = {};  ///< of the weight under way, behind the inputs of its reset map
 
   bool any() const noexcept { return !declared.empty() || !senders.empty() || receives_outside; }
 };

@@ -83,7 +83,8 @@ struct SimulatorOptions {
   bool record_events = true;
   /// Islands step apart: the parts of the system that read nothing of each other have steps,
   /// events and rows of their own, see Islands and Results::islands. Each island runs as if it were
-  /// alone, to the bit. False: all states have one common step. A later version may change the
+  /// alone, to the bit. Event wires with delays lead from island to island; what arrives in a step cuts
+  /// it by its dense output. False: all states have one common step. A later version may change the
   /// default.
   bool islands = false;
   /// The number of threads on which islands run, 0 for as many as the machine has cores. The results

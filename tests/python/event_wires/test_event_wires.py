@@ -197,13 +197,15 @@ def test_event_wires_without_a_delay_join_islands(delay):
     )
     described = saltus.Simulator(scene, islands=True).describe()
     joined = "joined by 'b.synapse' (gets events of 1 other part)"
-    assert (joined if delay == 0.0 else "1 event wires with delays lead from one to another") in described
+    assert (
+        joined if delay == 0.0 else "1 event wires with delays lead from one to another"
+    ) in described
 
 
 def test_rows_of_wired_islands_are_those_of_one_common_step():
     scene = pair()
     at = np.linspace(0.0, 0.05, 101)
-    recorded = {name: scene.subsystem(name).output("v") for name in ("a", "b")}
+    recorded = {name: f"{name}.v" for name in ("a", "b")}
     options = {
         "recorded_signals": recorded,
         "save_at": at,
@@ -218,9 +220,7 @@ def test_rows_of_wired_islands_are_those_of_one_common_step():
     np.testing.assert_array_equal(apart.time, at)
     for name in recorded:
         np.testing.assert_allclose(apart[name], common[name], atol=1e-7)
-        np.testing.assert_allclose(
-            [apart(t)[name] for t in at[1::7]], apart[name][1::7], atol=1e-7
-        )
+        np.testing.assert_allclose([apart(t)[name] for t in at[1::7]], apart[name][1::7], atol=1e-7)
 
 
 @pytest.mark.parametrize("e", [0.0, 0.5])

@@ -67,7 +67,7 @@ class Deliveries {
   bool any_;
   DeliveryQueue queue_;
   OutsideWires outside_;
-  std::vector<int> fired_;                     // batches without a delay that fired in this pass
+  std::vector<int> fired_;                    // batches without a delay that fired in this pass
   std::vector<EventWires::Target> arriving_;  // targets of the pass to come
   bool delivered_ = false, set_off_ = false;
 };

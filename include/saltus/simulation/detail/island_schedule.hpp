@@ -31,10 +31,10 @@ class IslandSchedule {
 
   /// How a piece of the run ended.
   struct End {
-    double time;                            ///< [s]
+    double time;                             ///< [s]
     std::optional<std::size_t> island = {};  ///< that ended it before its end
-    bool passed = false;                    ///< some island is beyond that time already
-    bool stopped = false;                   ///< by `asks`
+    bool passed = false;                     ///< some island is beyond that time already
+    bool stopped = false;                    ///< by `asks`
   };
   /// Runs all islands to t_end [s], but not beyond `latest` [s] or the earliest end that one of them
   /// has. `asks()` is called after each window on the calling thread: true stops the run.
@@ -67,16 +67,16 @@ class IslandSchedule {
   const Plan* plan_;
   const Islands* islands_;
   std::vector<Run*> runs_;
-  List<int> numbers_;                 // of each leaf in its island
-  std::vector<List<int>> sources_;    // of each island: the number in the plan of each source
-  List<char> inside_, outside_;       // of each batch: it has targets in its own island, in others
-  double shortest_;                   // [s] of the delays between islands
-  std::vector<Entry> queue_;          // a heap, with entries that are outdated
-  List<double> next_;                 // [s] of each island: that of its last entry
-  std::vector<std::size_t> window_;   // the islands that run
-  double safe_ = 0.0;                 // [s] the end of the window
-  double time_ = 0.0;                 // [s]
-  std::multimap<double, int> sent_;   // batches by due time, until no context needs them
+  List<int> numbers_;                // of each leaf in its island
+  std::vector<List<int>> sources_;   // of each island: the number in the plan of each source
+  List<char> inside_, outside_;      // of each batch: it has targets in its own island, in others
+  double shortest_;                  // [s] of the delays between islands
+  std::vector<Entry> queue_;         // a heap, with entries that are outdated
+  List<double> next_;                // [s] of each island: that of its last entry
+  std::vector<std::size_t> window_;  // the islands that run
+  double safe_ = 0.0;                // [s] the end of the window
+  double time_ = 0.0;                // [s]
+  std::multimap<double, int> sent_;  // batches by due time, until no context needs them
 };
 
 }  // namespace saltus

@@ -93,9 +93,7 @@ class Run {
   void depart(double from);
   std::optional<Status> over_steps(double t_end);
   /// Whether deliveries of other islands are due at t [s].
-  bool arrives_by(double t) const {
-    return instant_.next_outside() <= t + Calendar::slack(t);
-  }
+  bool arrives_by(double t) const { return instant_.next_outside() <= t + Calendar::slack(t); }
   Status arrive(double from, StopReason reason, double t_end, bool arrives);
   Status run_to(double t_end);
   Status begin(double t_end);

@@ -226,9 +226,10 @@ inline constexpr double tick_roundings = 4.0;
 // --- islands between which event wires lead
 
 /// [slacks of the time] The shortest delay between islands. An instant reaches two slacks ahead, and
-/// so does the end of a window.
+/// so does the end of a window. tests/laws/island_wires_test.cpp
 inline constexpr double window_slacks = 8.0;
 /// The islands that a thread takes at once: some 100 us of work, against 10 us for a thread to begin.
+/// tests/laws/island_wires_test.cpp
 inline constexpr std::size_t islands_at_once = 32;
 
 }  // namespace saltus::thresholds

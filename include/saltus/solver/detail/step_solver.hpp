@@ -278,7 +278,7 @@ class StepSolver : public Interface {
   detail::TangentStep tangent_;  // after the method's own step was refused
   Locator locator_;
   double time_ = 0.0, offset_ = 0.0, run_begun_ = 0.0;
-  double from_ = 0.0;  // offset_ before the last call of `advance`
+  double from_ = 0.0;      // offset_ before the last call of `advance`
   bool delivered_ = true;  // the last step is delivered to its end
   Eigen::VectorXd state_;  // the state at a root inside the last step
   Eigen::VectorXd next_state_;
