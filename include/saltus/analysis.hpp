@@ -1,0 +1,6 @@
+// Everything that is computed from many runs or linearisations of one system. It is not part of
+// saltus/saltus.hpp.
+#pragma once
+
+#include "saltus/analysis/equilibria.hpp"
+#include "saltus/analysis/trim.hpp"
