@@ -3,6 +3,7 @@
 #pragma once
 
 #include "saltus/analysis/equilibria.hpp"
+#include "saltus/analysis/fit.hpp"
 #include "saltus/analysis/lyapunov.hpp"
 #include "saltus/analysis/period_map.hpp"
 #include "saltus/analysis/periodic_orbit.hpp"
