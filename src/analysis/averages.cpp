@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "thresholds.hpp"
+#include "saltus/analysis/detail/thresholds.hpp"
 
 namespace saltus {
 

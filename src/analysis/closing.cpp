@@ -6,9 +6,9 @@
 
 #include <Eigen/LU>
 
+#include "saltus/analysis/detail/thresholds.hpp"
 #include "saltus/base/error.hpp"
 #include "saltus/base/list.hpp"
-#include "thresholds.hpp"
 
 namespace saltus {
 

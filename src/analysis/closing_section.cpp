@@ -4,9 +4,9 @@
 #include <Eigen/LU>
 
 #include "closing.hpp"
+#include "saltus/analysis/detail/thresholds.hpp"
 #include "saltus/base/error.hpp"
 #include "saltus/base/list.hpp"
-#include "thresholds.hpp"
 
 namespace saltus {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "saltus/analysis/detail/thresholds.hpp"
 #include "saltus/base/error.hpp"
 #include "saltus/base/list.hpp"
-#include "thresholds.hpp"
 
 namespace saltus {
 

@@ -7,11 +7,11 @@
 #include <ostream>
 
 #include "fit_loss.hpp"
+#include "saltus/analysis/detail/thresholds.hpp"
 #include "saltus/base/error.hpp"
 #include "saltus/base/list.hpp"
 #include "saltus/model/detail/names.hpp"
 #include "student.hpp"
-#include "thresholds.hpp"
 
 namespace saltus {
 

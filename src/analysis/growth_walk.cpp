@@ -7,8 +7,8 @@
 
 #include <Eigen/QR>
 
+#include "saltus/analysis/detail/thresholds.hpp"
 #include "saltus/base/philox.hpp"
-#include "thresholds.hpp"
 
 namespace saltus {
 

@@ -8,7 +8,7 @@
 
 #include <Eigen/QR>
 
-#include "thresholds.hpp"
+#include "saltus/analysis/detail/thresholds.hpp"
 
 namespace saltus::detail {
 

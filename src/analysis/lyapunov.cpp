@@ -8,9 +8,9 @@
 
 #include "averages.hpp"
 #include "growth_walk.hpp"
+#include "saltus/analysis/detail/thresholds.hpp"
 #include "saltus/base/error.hpp"
 #include "saltus/base/list.hpp"
-#include "thresholds.hpp"
 
 namespace saltus {
 

@@ -9,8 +9,8 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include "saltus/analysis/detail/thresholds.hpp"
 #include "saltus/base/error.hpp"
-#include "thresholds.hpp"
 
 namespace saltus {
 

@@ -6,8 +6,8 @@
 
 #include <Eigen/SVD>
 
+#include "saltus/analysis/detail/thresholds.hpp"
 #include "saltus/base/error.hpp"
-#include "thresholds.hpp"
 
 namespace saltus {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "saltus/analysis/detail/thresholds.hpp"
 #include "saltus/base/error.hpp"
-#include "thresholds.hpp"
 
 namespace saltus {
 

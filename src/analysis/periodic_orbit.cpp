@@ -7,9 +7,9 @@
 #include "multipliers.hpp"
 #include "orbit_newton.hpp"
 #include "places.hpp"
+#include "saltus/analysis/detail/thresholds.hpp"
 #include "saltus/base/error.hpp"
 #include "saltus/base/list.hpp"
-#include "thresholds.hpp"
 
 namespace saltus {
 

@@ -5,9 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
+#include "saltus/analysis/detail/thresholds.hpp"
 #include "saltus/base/error.hpp"
 #include "saltus/base/list.hpp"
-#include "thresholds.hpp"
 #include "trim_search.hpp"
 
 namespace saltus {

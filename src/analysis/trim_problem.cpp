@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "saltus/analysis/detail/thresholds.hpp"
 #include "saltus/base/error.hpp"
 #include "saltus/base/list.hpp"
-#include "thresholds.hpp"
 
 namespace saltus {
 

@@ -6,7 +6,7 @@
 #include <Eigen/SVD>
 
 #include "saltus/analysis/detail/least_squares.hpp"
-#include "thresholds.hpp"
+#include "saltus/analysis/detail/thresholds.hpp"
 
 namespace saltus {
 

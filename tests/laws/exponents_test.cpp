@@ -4,6 +4,7 @@
 #include "saltus/analysis/lyapunov.hpp"
 #include "saltus/analysis/periodic_orbit.hpp"
 #include "saltus/model/equations.hpp"
+#include "saltus/models/bouncing_ball.hpp"
 #include "saltus/models/lorenz.hpp"
 #include "saltus/models/rimless_wheel.hpp"
 #include "support/leaves.hpp"
@@ -108,6 +109,80 @@ TEST_CASE("a solvable chaotic oscillator with a switch has the exponents b and 0
   CHECK(found.states == std::vector<std::string>{"x[0]", "x[1]"});
   REQUIRE(found.frozen.size() == 1);
   CHECK(found.frozen[0].name == "z[0]");
+}
+
+TEST_CASE("each impact of a ball on a table has the determinant of e squared", "[exponents]") {
+  // flight keeps the volume, so sum T = 2 n ln(e) with the number n of impacts
+  const double e = 0.8, a = 0.05, w = 40.0;
+  const Leaf ball("ball", [=](Leaf& leaf) {
+    leaf.declare_continuous_state(
+        {.initial = vec({0.5, 0.0}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -9.81; }});
+    leaf.declare_zero_crossing(
+        {.name = "hit",
+         .guard = [=](const At& at) { return at.x[0] - a * std::sin(w * at.time); },
+         .reset_map =
+             [=](const At& at, Next& next) {
+               const double table = a * w * std::cos(w * at.time);
+               next.set_continuous_state({at.x[0], (1.0 + e) * table - e * at.x[1]});
+             },
+         .direction = Direction::positive_then_non_positive});
+  });
+  const LyapunovSpectrum found =
+      lyapunov(ball, ball.create_context(), {.time = 60.0, .transient = 10.0});
+  const double span = found.times[found.times.size() - 1] - found.begin;
+  const double impacts = found.sum() * span / (2.0 * std::log(e));
+  CHECK_THAT(impacts, WithinAbs(std::round(impacts), 1e-5));  // each has an error of 1e-8 or less
+  CHECK(impacts > 10.0);
+  CHECK(found.exponents[0] > 4.0 * found.errors[0]);  // chaotic
+}
+
+TEST_CASE("a sampled map has its exponent, and an update forgets a direction", "[exponents]") {
+  // z -> 4 z (1 - z) each second, and a count; x' = z - x / 10. The first z is whole, and no label
+  const Leaf map("map", [](Leaf& leaf) {
+    leaf.declare_continuous_state(
+        {.initial = vec({0.0}), .ode = [](const At& at) { return at.z[0] - 0.1 * at.x[0]; }});
+    leaf.declare_discrete_state(vec({0.0, 0.0}));
+    leaf.declare_periodic_update(
+        [](const At& at, Next& next) {
+          const double z = at.z[1] > 0.0 ? 4.0 * at.z[0] * (1.0 - at.z[0]) : 0.3;
+          next.set_discrete_state({z, at.z[1] + 1.0});
+        },
+        1.0, 0.0);
+  });
+  const LyapunovSpectrum found =
+      lyapunov(map, map.create_context(), {.time = 1000.0, .every = 1.0});
+  CHECK(std::abs(found.exponents[0] - std::log(2.0)) <= 4.0 * found.errors[0] + 1e-6);
+  CHECK_THAT(found.exponents[1], WithinAbs(-0.1, 4.0 * found.errors[1] + 1e-3));
+  CHECK(found.states == std::vector<std::string>{"x[0]", "z[0]"});
+  REQUIRE(found.frozen.size() == 1);
+  CHECK(found.frozen[0].value == 1001.0);
+  const Leaf loop("loop", [](Leaf& leaf) {
+    leaf.declare_continuous_state(
+        {.initial = vec({1.0, 0.5}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], at.z[0]; }});
+    leaf.declare_discrete_state(vec({0.0}));
+    leaf.declare_periodic_update(
+        [](const At& at, Next& next) { next.set_discrete_state({-0.8 * at.x[0] - 1.1 * at.x[1]}); },
+        0.4, 0.0);
+  });
+  const LyapunovSpectrum three = lyapunov(loop, loop.create_context(), {.time = 100.0});
+  CHECK(three.exponents[2] == -infinite);
+  CHECK(three.errors[2] == 0.0);
+  // |multiplier|^2 is the determinant of A - B K = 1 - 0.44 + 0.064; rotating directions: a bounded
+  // logarithm over 90 s
+  const double pair = 0.5 * std::log(1.0 - 1.1 * 0.4 + 0.8 * 0.08) / 0.4;
+  CHECK_THAT(three.exponents[0], WithinAbs(pair, 0.02));
+  CHECK_THAT(three.exponents[1], WithinAbs(pair, 0.02));
+}
+
+TEST_CASE("a ball that comes to rest has no exponents", "[exponents]") {
+  const Scene scene = models::bouncing_ball();
+  const auto refused = [&](const LyapunovOptions& options) {
+    return message<Error>([&] { lyapunov(*scene.system, scene.context, options); });
+  };
+  CHECK(contains(refused({.time = 60.0}), "came to rest after 'ball.bounce'"));
+  CHECK(contains(refused({.time = 10.0, .transient = 40.0}), "'x[0]', 'x[1]' is at rest"));
 }
 
 TEST_CASE("bad arguments of lyapunov are refused by name", "[exponents]") {

@@ -154,6 +154,77 @@ TEST_CASE("bad arguments of periodic_orbit are refused by name", "[orbits]") {
   CHECK(contains(refusal(leaf, own), "the option 'dense_output' is set by it"));
 }
 
+/// r' = r (1 - r^2), at the rate 1 around 0: a stable circle of radius 1. `crossed` looks at x = 0.
+template <class Reset>
+Leaf turning(Reset reset, double side = 0.0, bool terminal = false) {
+  return Leaf("turning", [&](Leaf& leaf) {
+    leaf.declare_continuous_state(
+        {.initial = vec({0.5, 0.1}), .ode = [](const At& at, VectorRef xdot) {
+           const double x = at.x[0], y = at.x[1], pull = 1.0 - x * x - y * y;
+           xdot << pull * x - y, pull * y + x;
+         }});
+    leaf.declare_discrete_state(vec({side}));
+    leaf.declare_default_mode(0);
+    leaf.declare_zero_crossing({.name = "crossed",
+                                .guard = [](const At& at) { return at.x[0]; },
+                                .reset_map = reset,
+                                .direction = Direction::negative_then_non_negative,
+                                .terminal = terminal});
+  });
+}
+
+TEST_CASE("a deviation of a circle shrinks to exp(-4 pi) in a turn", "[orbits]") {
+  const Leaf leaf = turning(ResetMap());
+  const PeriodicOrbit orbit = periodic_orbit(leaf, leaf.create_context(), {.section = "crossed"});
+  REQUIRE(orbit.success());
+  CHECK_THAT(orbit.period, WithinAbs(6.283185307179586, 1e-8));
+  CHECK((orbit.x0 - Eigen::Vector2d(0.0, -1.0)).norm() < 1e-8);
+  CHECK_THAT(orbit.multipliers[0].real(), WithinAbs(std::exp(-12.566370614359172), 1e-8));
+  CHECK(orbit.stable() == true);
+}
+
+TEST_CASE("what does not return is named, and a side returns after two firings", "[orbits]") {
+  const Leaf counts =
+      turning([](const At& at, Next& next) { next.set_discrete_state({at.z[0] + 1.0}); });
+  CHECK(contains(refusal(counts, {.section = "crossed"}),
+                 "the discrete state 'z[0]' did not return"));
+  const Leaf modes = turning([](const At& at, Next& next) { next.set_mode(at.mode + 1); });
+  CHECK(contains(refusal(modes, {.section = "crossed"}), "the mode of 'turning' did not return"));
+  const Leaf sides =
+      turning([](const At& at, Next& next) { next.set_discrete_state({-at.z[0]}); }, 1.0);
+  CHECK(contains(refusal(sides, {.section = "crossed"}), "did not return"));
+  const PeriodicOrbit orbit =
+      periodic_orbit(sides, sides.create_context(), {.section = "crossed", .firings = 2});
+  CHECK_THAT(orbit.period, WithinAbs(12.566370614359172, 1e-7));
+  CHECK(orbit.multipliers.size() == 1);  // that of the side is none
+  const Leaf ends = turning(ResetMap(), 0.0, true);
+  CHECK(contains(refusal(ends, {.section = "crossed"}), "with the status 'terminal'"));
+}
+
+TEST_CASE("a search that does not converge, or has no derivative, says so", "[orbits]") {
+  const Scene wheel = models::rimless_wheel();
+  const PeriodicOrbit orbit =
+      periodic_orbit(*wheel.system, wheel.context, {.section = "wheel.spoke", .max_iterations = 1});
+  CHECK(orbit.status == SearchStatus::max_iterations);
+  CHECK(contains(orbit.message, "after 1 steps"));
+  CHECK(std::isnan(orbit.multipliers[0].real()));
+  CHECK(!orbit.stable());
+  CHECK(contains(message<SimulationError>([&] { orbit.dperiod("e"); }), "no orbit was found"));
+  // a guard that shows a sign only says nothing about the time at which it crosses
+  const Leaf sign("sign", [](Leaf& leaf) {
+    leaf.declare_continuous_state(
+        {.initial = vec({0.5, 0.1}),
+         .ode = [](const At& at, VectorRef xdot) { xdot << -at.x[1], at.x[0]; }});
+    leaf.declare_zero_crossing({.name = "sign",
+                                .guard = [](const At& at) { return at.x[0] > 0.3 ? 1.0 : -1.0; },
+                                .direction = Direction::negative_then_non_negative});
+  });
+  CHECK(contains(refusal(sign, {.section = "sign"}),
+                 "there is no derivative by 'x[0]' at the event"));
+  const Leaf falls("falls", [](Leaf& leaf) { declare_ramp(leaf); });
+  CHECK(contains(refusal(falls, {.max_period = 10.0}), "came close to none"));
+}
+
 // The numbers of the Python module:
 //   o = saltus.periodic_orbit(saltus.system_of(lambda t, x, mu: [x[1], mu * (1 - x[0]**2) * x[1] - x[0]],
 //       [2.0, 0.0], parameters={"mu": 1.0}), wrt=["mu"])

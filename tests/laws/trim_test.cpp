@@ -2,6 +2,7 @@
 #include "saltus/analysis/trim.hpp"
 
 #include <cmath>
+#include <random>
 
 #include "saltus/analysis/equilibria.hpp"
 #include "saltus/library/library.hpp"
@@ -213,6 +214,78 @@ TEST_CASE("a guard on the way is named", "[trim]") {
                  "'heater.hot' has an effect and lies between the start (g = -2)"));
   const Context heated = heater.create_context().with_continuous_state({29.0});
   CHECK(trim(heater, heated).crossed.empty());
+}
+
+TEST_CASE("a kink at the point is named", "[trim]") {
+  DiagramBuilder builder;
+  auto& limit =
+      builder.add<Saturate>("limit", SaturateOptions{.lower_limit = -1.0, .upper_limit = 1.0});
+  auto& plant = builder.add<Integrator>("plant", Integrator::Options{.initial_state = 0.3});
+  builder.connect(limit.output(), plant.input());
+  builder.export_input(limit.input(), "u");
+  builder.export_output(limit.output(), "y");
+  const Diagram system = builder.build();
+  const std::vector<FreeValue> free{{.name = "u", .start = 0.5}};
+  const OperatingPoint point = trimmed(system, {.free = free,
+                                                .hold = {"plant.x[0]"},
+                                                .derivatives = {{"plant.x[0]"}},
+                                                .outputs = {{"y", 1.0}}});
+  CHECK(point.success());
+  CHECK(!point.smooth);
+  REQUIRE(!point.notes.empty());
+  CHECK(contains(point.notes.back(), "is at its root"));
+  const OperatingPoint inside = trimmed(system, {.free = free, .hold = {"plant.x[0]"}});
+  CHECK(inside.smooth);
+  CHECK_THAT(inside.value("u"), WithinAbs(0.0, exact));
+}
+
+TEST_CASE("a double root has no rank, and the limit of evaluations is said", "[trim]") {
+  const auto line = [](double start, auto rate) {
+    return Leaf("line", [=](Leaf& leaf) {
+      leaf.declare_continuous_state(
+          {.initial = vec({start}), .ode = [rate](const At& at) { return rate(at.x[0]); }});
+    });
+  };
+  const Leaf square = line(2.0, [](double x) { return (x - 1.0) * (x - 1.0); });
+  const OperatingPoint point = trimmed(square);
+  CHECK_THAT(point.value("x[0]"), WithinAbs(1.0, 1e-7));  // until the square is a rounding
+  CHECK(point.undetermined == std::vector<std::string>{"x[0]"});
+  CHECK(point.stability() == Stability::undecided);
+  const Leaf hard = line(60.0, [](double x) { return std::exp(x) - 1e-3; });
+  const OperatingPoint stopped = trimmed(hard, {.max_nfev = 2});
+  CHECK(stopped.status == SearchStatus::max_nfev);
+  CHECK(contains(stopped.message, "larger max_nfev"));
+}
+
+TEST_CASE("random flows of many sizes: a point that is found is a root", "[trim]") {
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    const Index n = 1 + static_cast<Index>(random() % 8);
+    const auto draw = [&] { return normal(random); };
+    const Eigen::MatrixXd w = Eigen::MatrixXd::NullaryExpr(n, n, draw);
+    const Eigen::VectorXd size = Eigen::VectorXd::NullaryExpr(
+        n, [&] { return std::pow(10.0, static_cast<int>(random() % 13) - 6); });
+    const auto flow = [w, size](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+      const Eigen::VectorXd scaled = x.cwiseQuotient(size);
+      return size.cwiseProduct(w * scaled.array().tanh().matrix() + 3.0 * scaled);
+    };
+    const Eigen::VectorXd root = Eigen::VectorXd::NullaryExpr(n, draw).cwiseProduct(size);
+    const Eigen::VectorXd rest = flow(root);
+    const Eigen::VectorXd start =
+        root + 0.3 * Eigen::VectorXd::NullaryExpr(n, draw).cwiseProduct(size);
+    const Leaf leaf("random", [&](Leaf& l) {
+      l.declare_continuous_state({.initial = start, .ode = [=](const At& at, VectorRef xdot) {
+                                    xdot = flow(at.x) - rest;
+                                  }});
+    });
+    const OperatingPoint point = trimmed(leaf);
+    CHECK(point.success());
+    // some hundred roundings of terms of size 10
+    const Eigen::VectorXd off = flow(point.context.continuous_state()) - rest;
+    CHECK(off.cwiseQuotient(size).cwiseAbs().maxCoeff() < 1e-12);
+  }
 }
 
 TEST_CASE("equilibria finds the three points of a cubic, and those of a box only", "[trim]") {

@@ -5,9 +5,10 @@
 
 namespace saltus {
 
+/// The relative rounding of a double, as tests/unit/least_squares_test.cpp counts errors.
 inline constexpr double unit_rounding = std::numeric_limits<double>::epsilon();
 
-// --- least squares ------------------------------------------------------------------------------
+// --- least squares: tests/unit/least_squares_test.cpp ---
 /// Of the first step: one Gauss-Newton step nearly, where the columns are of length 1.
 inline constexpr double first_damping = 1e-3;
 /// The damping of a step at most: it is far shorter than a rounding of x.
@@ -20,7 +21,7 @@ inline constexpr double shrinks_by = 0.1;
 /// The part of the predicted reduction that a step has to have (More 1978 takes 1e-4).
 inline constexpr double least_reduction = 1e-4;
 
-// --- operating points ---------------------------------------------------------------------------
+// --- operating points: tests/laws/trim_test.cpp ---
 /// [of the unit of an unknown] its rounding: an unknown whose solution is 0 comes out as some 1e-17
 /// beside others of size 1.
 inline constexpr double unknown_noise = 1e-12;
@@ -46,7 +47,7 @@ inline constexpr double newton_rank = 1e-10;
 /// [of the size of a value] two searches that end at one point end closer than this.
 inline constexpr double same_point = 1e-6;
 
-// --- orbits -------------------------------------------------------------------------------------
+// --- orbits: tests/laws/orbits_test.cpp ---
 /// The first span in which firings are looked for is the longest one, halved this often.
 inline constexpr int first_halvings = 16;
 inline constexpr double span_growth = 2.0;
@@ -93,7 +94,7 @@ inline constexpr double multiplier_margin = 1e-4;
 /// [of the size of a state] a point that returns to itself within this is a fixed point.
 inline constexpr double closed_point = 1e-6;
 
-// --- exponents ----------------------------------------------------------------------------------
+// --- exponents: tests/laws/exponents_test.cpp ---
 /// Pieces at least, so that the batches of the standard errors have some each.
 inline constexpr int least_pieces = 200;
 /// A relative growth over the whole time that the errors of the derivatives hide.
@@ -119,7 +120,7 @@ inline constexpr double least_apart = 1e-3;
 /// The part of the time below which a rest of it is no piece.
 inline constexpr double last_rest = 1e-9;
 
-// --- fits ---------------------------------------------------------------------------------------
+// --- fits: tests/laws/fits_test.cpp ---
 /// The part of an undetermined direction above which a parameter takes part in it.
 inline constexpr double open_part = 1e-3;
 /// [of the slope of a loss] the second derivative that its quadratic model has at least: without one
