@@ -47,7 +47,7 @@ void require_arguments(const PeriodicOrbitOptions& options) {
 
 void require_parameters(const Context& context, const std::vector<std::string>& wrt) {
   for (const std::string& name : wrt) {
-    const ContextEntry entry = number_in(orbit_name + ": wrt", context, name);
+    const ContextEntry entry = entry_in(orbit_name + ": wrt", context, name);
     if (entry.kind != ContextEntry::Kind::parameter)
       throw ModelError(text(orbit_name, ": wrt: '", name,
                             "' is a start value, which the search finds; expected a parameter"));
@@ -93,12 +93,13 @@ void require_same_orbit(Closing& closing, const Arc& arc) {
 /// The derivatives of start and period by parameters; with the exception if there are none.
 PeriodicOrbit::ByParameters derivatives_by(Closing& closing, const OrbitFound& found,
                                            const Context& at, bool isolated,
-                                           const std::vector<std::string>& wrt) {
+                                           std::vector<std::string>& wrt) {
   PeriodicOrbit::ByParameters by;
   if (wrt.empty() || found.status != SearchStatus::converged) return by;
   Eigen::VectorXd unknowns(static_cast<Index>(closing.active().size()) + 1);
   unknowns << found.arc.start(closing.active()), found.arc.period;
   const Arc full = closing.arc(found.arc.begin, unknowns, wrt);
+  wrt = full.parameters;  // a vector has a name for each entry
   try {
     if (!isolated)
       throw SimulationError(text(orbit_name, ": t = ", at.time(),
@@ -136,9 +137,9 @@ PeriodicOrbit orbit_of(Closing& closing, OrbitFound found, const PeriodicOrbitOp
     orbit.multipliers.setConstant(std::numeric_limits<double>::quiet_NaN());
   orbit.monodromy = closing.square(arc.monodromy), orbit.return_map = closing.square(arc.by_start);
   orbit.residual = (arc.end - arc.start).cwiseAbs().maxCoeff();
-  orbit.by_parameters =
-      derivatives_by(closing, found, orbit.context, spectrum.isolated, options.wrt);
   orbit.parameters = options.wrt;
+  orbit.by_parameters =
+      derivatives_by(closing, found, orbit.context, spectrum.isolated, orbit.parameters);
   orbit.results = closing.runs().dense(orbit.context, orbit.context.time() + arc.period,
                                        options.recorded_signals);
   return orbit;

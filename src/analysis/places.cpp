@@ -31,13 +31,16 @@ int open_port(const System& system, const std::string& name) {
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
-ContextEntry number_in(const std::string& where, const Context& context, const std::string& name) {
-  ContextEntry entry;
+ContextEntry entry_in(const std::string& where, const Context& context, const std::string& name) {
   try {
-    entry = find_entry(context.layout(), name);
+    return find_entry(context.layout(), name);
   } catch (const ModelError& error) {
     throw ModelError(text(where, ": ", error.what()));
   }
+}
+
+ContextEntry number_in(const std::string& where, const Context& context, const std::string& name) {
+  const ContextEntry entry = entry_in(where, context, name);
   if (entry.kind == ContextEntry::Kind::mode)
     throw ModelError(
         text(where, ": '", name, "' is a mode, an integer; expected a parameter or a start value"));

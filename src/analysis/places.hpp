@@ -36,6 +36,8 @@ int open_port(const System& system, const std::string& name);
 /// names the nearest.
 AnalysisPlace place_of(const std::string& where, const System& system, const Context& context,
                        const std::string& name);
+/// The values of the context with a name. Throws ModelError for an unknown one, with the nearest.
+ContextEntry entry_in(const std::string& where, const Context& context, const std::string& name);
 /// The same of a number of the context: a parameter, or a continuous or discrete start value. A mode
 /// is refused.
 ContextEntry number_in(const std::string& where, const Context& context, const std::string& name);

@@ -19,6 +19,14 @@ Eigen::Map<const ByRows> rows_of(const std::vector<double>& values, std::size_t 
   return {values.data(), n > 0 ? static_cast<Index>(values.size()) / n : 0, n};
 }
 
+/// States at rest in islands, whose numbers are those of the island.
+void add_islands(std::vector<std::string>& names, const std::vector<Continuation>& islands) {
+  for (std::size_t k = 0; k < islands.size(); ++k)
+    for (const Continuation::Firings& firing : islands[k].firings)
+      for (const Index i : firing.states)
+        if (firing.holding) names.push_back(text("state ", i, " of island ", k));
+}
+
 }  // namespace
 
 RunStates::RunStates(const Context& context) {
@@ -109,6 +117,7 @@ std::vector<std::string> at_rest(const Context& context, const RunStates& states
       if (firing.holding) resting.insert(firing.states.begin(), firing.states.end());
   std::vector<std::string> names;
   for (const Index i : resting) names.push_back(states.name(i));
+  if (saved) add_islands(names, saved->islands);
   return names;
 }
 

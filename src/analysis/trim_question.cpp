@@ -8,6 +8,7 @@
 #include "saltus/base/list.hpp"
 #include "saltus/base/model_errors.hpp"
 #include "saltus/simulation/evaluate.hpp"
+#include "trim_targets.hpp"
 
 namespace saltus {
 
@@ -39,8 +40,10 @@ class Asking {
     setting_ = setting_.put(places_, start);
     require_motion();
     TrimReader reader = this->reader();
-    std::vector<TrimTarget> targets = wanted_rates();
-    add_outputs(targets, reader);
+    std::vector<TrimTarget> targets = wanted_rates(where_, system_, base_, options_.derivatives);
+    if (!options_.outputs.empty())
+      for (TrimTarget& target : wanted_outputs(where_, rows_of(reader), options_.outputs))
+        targets.push_back(std::move(target));
     require_equations(targets);
     return {where_,
             {std::move(reader), setting_, places_, std::move(targets)},
@@ -200,72 +203,8 @@ class Asking {
     std::vector<std::string> parameters;
     for (const AnalysisPlace& place : places_)
       if (place.is_parameter()) parameters.push_back(place.name);
-    RecordedSignals signals;
-    for (const WantedOutput& wanted : options_.outputs) {
-      const std::string name = wanted.port.system ? wanted.name : port_name(wanted.name);
-      if (std::ranges::find(signals, name, &RecordedSignals::value_type::first) == signals.end())
-        signals.push_back({name, wanted.port.system ? wanted.port : system_.output(name)});
-    }
-    return {system_, std::move(parameters), std::move(signals), options_.refinement};
-  }
-
-  /// The output of the system that a name means: itself, or the vector of an entry.
-  std::string port_name(const std::string& name) const {
-    const std::vector<std::string> names = system_.output_names();
-    return std::ranges::find(names, name) != names.end() ? name : split_entry(name).first;
-  }
-
-  std::vector<TrimTarget> wanted_rates() const {
-    const std::vector<std::string> names = continuous_names(base_);
-    std::vector<std::optional<double>> values(names.size(), 0.0);
-    for (const WantedRate& wanted : options_.derivatives) {
-      const AnalysisPlace place = place_of(where_ + ": derivatives", system_, base_, wanted.name);
-      if (!place.is_state())
-        throw ModelError(text(where_, ": derivatives: '", wanted.name, "' is no continuous state",
-                              known_names(wanted.name, names)));
-      if (wanted.value) require_finite_value("derivatives", wanted.name, *wanted.value);
-      nth(values, place.entry->first) = wanted.value;
-    }
-    std::vector<TrimTarget> targets;
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (values[i])
-        targets.push_back({"rate of " + names[i], true, static_cast<Index>(i), *values[i]});
-    return targets;
-  }
-
-  void require_finite_value(std::string_view of, const std::string& name, double value) const {
-    if (std::isfinite(value)) return;
-    throw ModelError(
-        text(where_, ": ", of, ": '", name, "': expected a finite number, found ", value));
-  }
-
-  /// The rows of a linearisation that a name means.
-  static std::vector<std::string> entries_of(const std::vector<std::string>& rows,
-                                             const std::string& name) {
-    if (std::ranges::find(rows, name) != rows.end()) return {name};
-    std::vector<std::string> entries;
-    for (const std::string& row : rows)
-      if (row.substr(0, row.rfind('[')) == name) entries.push_back(row);
-    return entries;
-  }
-
-  void add_outputs(std::vector<TrimTarget>& targets, TrimReader& reader) const {
-    if (options_.outputs.empty()) return;
-    const std::vector<std::string> rows = rows_of(reader);
-    for (const WantedOutput& wanted : options_.outputs) {
-      const auto entries = entries_of(rows, wanted.name);
-      if (entries.empty())
-        throw ModelError(text(where_, ": outputs: there is no '", wanted.name, "'",
-                              known_names(wanted.name, rows)));
-      if (std::ssize(entries) != wanted.value.size())
-        throw ModelError(text(where_, ": outputs: '", wanted.name, "' has ", entries.size(),
-                              " entries, found ", wanted.value.size()));
-      for (Index i = 0; i < wanted.value.size(); ++i) {
-        require_finite_value("outputs", nth(entries, i), wanted.value[i]);
-        const auto row = std::ranges::find(rows, nth(entries, i)) - rows.begin();
-        targets.push_back({nth(entries, i), false, row, wanted.value[i]});
-      }
-    }
+    return {system_, std::move(parameters), wanted_signals(where_, system_, options_.outputs),
+            options_.refinement};
   }
 
   std::vector<std::string> rows_of(TrimReader& reader) const {

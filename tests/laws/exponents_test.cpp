@@ -42,6 +42,21 @@ Leaf solvable(double b) {
   });
 }
 
+/// A ball that falls from 1 m and keeps half of its speed.
+class Fallen final : public LeafSystem {
+ public:
+  explicit Fallen(std::string name) : LeafSystem(std::move(name)) {
+    declare_continuous_state({.initial = vec({1.0, 0.0}),
+                              .ode = [](const At& at, VectorRef xdot) { xdot << at.x[1], -9.81; }});
+    declare_zero_crossing(
+        {.name = "hit",
+         .guard = [](const At& at) { return at.x[0]; },
+         .reset_map = [](const At& at,
+                         Next& next) { next.set_continuous_state({0.0, -0.5 * at.x[1]}); },
+         .direction = Direction::positive_then_non_positive});
+  }
+};
+
 std::string refusal(const System& system, const LyapunovOptions& options) {
   return message<ModelError>([&] { lyapunov(system, system.create_context(), options); });
 }
@@ -183,6 +198,13 @@ TEST_CASE("a ball that comes to rest has no exponents", "[exponents]") {
   };
   CHECK(contains(refused({.time = 60.0}), "came to rest after 'ball.bounce'"));
   CHECK(contains(refused({.time = 10.0, .transient = 40.0}), "'x[0]', 'x[1]' is at rest"));
+  DiagramBuilder builder;
+  builder.add<Fallen>("a"), builder.add<Fallen>("b");
+  const Diagram two = builder.build();
+  LyapunovOptions options{.time = 20.0};
+  options.simulation.islands = true;
+  CHECK(contains(message<Error>([&] { lyapunov(two, two.create_context(), options); }),
+                 "'state 0 of island 0', 'state 1 of island 0'"));
 }
 
 TEST_CASE("bad arguments of lyapunov are refused by name", "[exponents]") {

@@ -317,6 +317,9 @@ TEST_CASE("bad data and arguments of fit are refused by name", "[fit]") {
   CHECK(contains(refusal(ball, wrong, g_and_e), "expected 2 numbers for each of 20 times"));
   wrong.signals[0].name = "state[2]";
   CHECK(contains(refusal(ball, wrong, g_and_e), "the signal has 2 entries"));
+  wrong = data, wrong.signals.push_back(data.signals[0]);
+  wrong.signals[1].port = ball.output("velocity");
+  CHECK(contains(refusal(ball, wrong, g_and_e), "'height' names two outputs"));
   wrong = data, wrong.signals[0].values(3, 0) = infinite;
   CHECK(contains(refusal(ball, wrong, g_and_e), "write NaN for a missing value"));
   wrong = data, wrong.time[0] = not_a_number;

@@ -157,6 +157,14 @@ TEST_CASE("an output at a chosen value", "[trim]") {
   const OperatingPoint bias = trimmed(
       system, {.free = {{{.name = "bias.value"}}}, .hold = {{"u", 1.0}}, .outputs = {{"y", 3.0}}});
   CHECK_THAT(bias.value("bias.value"), WithinRel(0.5, exact));
+  // a block of the system by its port, whose name is free
+  const OutputPort sum = system["sum"].output();
+  const OperatingPoint inner =
+      trimmed(system, {.free = {{{.name = "u"}}}, .outputs = {{"inner", sum, 4.0}}});
+  CHECK_THAT(inner.value("u"), WithinRel(3.75, exact));
+  CHECK(contains(
+      refusal(system, {.free = {{{.name = "u"}}}, .outputs = {{"y", 3.0}, {"y", sum, 1.0}}}),
+      "'y' names two outputs"));
 }
 
 TEST_CASE("what has no point says so, and a bound in the way is named", "[trim]") {

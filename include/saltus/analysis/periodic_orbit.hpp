@@ -58,7 +58,7 @@ class PeriodicOrbit {
   int iterations = 0;                   ///< Newton steps
   std::vector<std::string> notes;       ///< what a check found that limits the result
   Results results;                      ///< one period from `context`, with dense output
-  std::vector<std::string> parameters;  ///< the names given as `wrt`
+  std::vector<std::string> parameters;  ///< those of `wrt`; a vector has one for each entry
 
   bool success() const noexcept { return status == SearchStatus::converged; }
   /// Whether all multipliers are inside the unit circle. Empty if the search did not converge, or if
