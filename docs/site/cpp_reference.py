@@ -14,6 +14,7 @@ LAYERS = {  # of those in include/saltus: what a user calls or derives from; hea
         "Runs and their results",
         "simulate simulator options results event_log dense_output ensemble outcomes",
     ),
+    "analysis": ("Operating points, orbits, exponents, fits", "*"),
     "solver": ("Methods", "choose statistics"),
     "tape": ("Expressions and their derivatives", "*"),
     "report": ("Error against run time", "exact scene observed work_precision table written"),

@@ -17,6 +17,7 @@ LAYERS = [
     "plan",
     "solver",
     "simulation",
+    "analysis",
     "report",
     "models",
 ]

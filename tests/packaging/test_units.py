@@ -100,6 +100,7 @@ ELSEWHERE = {
     "solver/detail/taylor/tuning": None,
 }
 TUNING = (
+    "analysis/detail/thresholds.hpp",
     "simulation/detail/thresholds.hpp",
     "solver/detail/cvode_thresholds.hpp",
     "solver/detail/linear_thresholds.hpp",

@@ -63,6 +63,18 @@ def arguments(method):
     return set(inspect.signature(method).parameters) - {"self"}
 
 
+def parameters(function):
+    """The arguments that a C++ function takes as options: not the system, nor the context."""
+    found = inspect.signature(function).parameters.values()
+    named = {p.name for p in found if p.kind is not inspect.Parameter.VAR_KEYWORD}
+    return named - {"system", "context"}
+
+
+def fields_of(cls):
+    """The public fields and methods of a dataclass."""
+    return {name for name in public(cls) | set(cls.__annotations__) if not name.startswith("_")}
+
+
 def blocks():
     headers = (ROOT / "include" / "saltus" / "library").glob("*.hpp")
     texts = [header.read_text() for header in headers]
@@ -127,6 +139,56 @@ PAIRS = {
     "Event": (
         members("simulation/event_log.hpp", "Event"),
         set(saltus.Event._fields),
+    ),
+    "trim": (members("analysis/trim.hpp", "TrimOptions"), parameters(saltus.trim)),
+    "equilibria": (
+        members("analysis/equilibria.hpp", "EquilibriaOptions"),
+        parameters(saltus.equilibria),
+    ),
+    "OperatingPoint": (
+        members("analysis/trim.hpp", "OperatingPoint")
+        | methods("analysis/trim.hpp", "OperatingPoint"),
+        fields_of(saltus.OperatingPoint),
+    ),
+    "periodic_orbit": (
+        members("analysis/periodic_orbit.hpp", "PeriodicOrbitOptions"),
+        parameters(saltus.periodic_orbit),
+    ),
+    "PeriodicOrbit": (
+        members("analysis/periodic_orbit.hpp", "PeriodicOrbit")
+        | methods("analysis/periodic_orbit.hpp", "PeriodicOrbit"),
+        fields_of(saltus.PeriodicOrbit),
+    ),
+    "period_map": (
+        members("analysis/period_map.hpp", "PeriodMapOptions"),
+        parameters(saltus.period_map),
+    ),
+    "PeriodMap": (
+        members("analysis/period_map.hpp", "PeriodMap")
+        | methods("analysis/period_map.hpp", "PeriodMap"),
+        fields_of(saltus.PeriodMap),
+    ),
+    "lyapunov": (
+        members("analysis/lyapunov.hpp", "LyapunovOptions"),
+        parameters(saltus.lyapunov),
+    ),
+    "LyapunovSpectrum": (
+        members("analysis/lyapunov.hpp", "LyapunovSpectrum")
+        | methods("analysis/lyapunov.hpp", "LyapunovSpectrum"),
+        fields_of(saltus.LyapunovSpectrum),
+    ),
+    "fit": (members("analysis/fit.hpp", "FitOptions"), parameters(saltus.fit)),
+    "FitResult": (
+        members("analysis/fit.hpp", "FitResult") | methods("analysis/fit.hpp", "FitResult"),
+        fields_of(saltus.FitResult),
+    ),
+    "Experiment": (
+        members("analysis/experiment.hpp", "Experiment"),
+        {field.name for field in dataclasses.fields(saltus.Experiment)},
+    ),
+    "Free": (
+        members("analysis/free_value.hpp", "FreeValue"),
+        {field.name for field in dataclasses.fields(saltus.Free)},
     ),
     "Statistics": (
         members("simulation/results.hpp", "Statistics")

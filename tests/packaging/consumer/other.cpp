@@ -1,3 +1,4 @@
+#include <saltus/analysis.hpp>
 #include <saltus/saltus.hpp>
 
 namespace {
@@ -13,7 +14,24 @@ class Ball final : public saltus::LeafSystem {
   void ode(const At& at, VectorRef xdot) const { xdot << at.x[1], -9.81; }
 };
 
+/// A body of 2 kg on a scale that pushes.
+class Scale final : public saltus::LeafSystem {
+ public:
+  Scale() : LeafSystem("scale") {
+    const auto push = declare_dynamic_parameter("push", 1.0);
+    declare_continuous_state({.initial = Eigen::VectorXd::Zero(1),
+                              .ode = [push](const At& at) { return at.p[push] / 2.0 - 9.81; }});
+  }
+};
+
 }  // namespace
+
+double found_weight() {
+  const Scale scale;
+  const saltus::OperatingPoint point =
+      saltus::trim(scale, scale.create_context(), {.free = {{{.name = "push"}}}});
+  return point.value("push");
+}
 
 double simulated_height(double time) {
   const Ball ball;

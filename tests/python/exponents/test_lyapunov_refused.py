@@ -44,6 +44,26 @@ def test_a_ball_that_comes_to_rest():
         saltus.lyapunov(*ball(), time=60.0)
 
 
+def test_balls_on_islands_that_come_to_rest():
+    class Ball(saltus.LeafSystem):
+        def __init__(self, name):
+            super().__init__(name=name)
+            self.declare_continuous_state(
+                [1.0, 0.0], ode=lambda t, s: [s.continuous_state[1], -9.81]
+            )
+            self.declare_zero_crossing(
+                lambda t, s: s.continuous_state[0],
+                lambda t, s: s.with_continuous_state([0.0, -0.5 * s.continuous_state[1]]),
+                name="hit",
+                direction="positive_then_non_positive",
+            )
+
+    builder = saltus.DiagramBuilder()
+    builder.add(Ball("a"), Ball("b"))
+    with pytest.raises(saltus.SimulationError, match=r"'state 0 of island 0'.* came to rest"):
+        saltus.lyapunov(builder.build(), time=20.0, islands=True)
+
+
 def test_a_start_at_rest():
     with pytest.raises(saltus.ModelError, match=r"t = 40.0 s: 'x\[0\]', 'x\[1\]' is at rest"):
         saltus.lyapunov(*ball(), time=10.0, transient=40.0)
