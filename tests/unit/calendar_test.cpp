@@ -18,6 +18,22 @@ Plan schedules(const std::vector<std::pair<double, double>>& events) {
 
 }  // namespace
 
+TEST_CASE("A root may be at the next time event within a ten-thousandth of its step, or within rounding") {
+  const Leaf leaf("leaf", [](Leaf& l) { l.declare_one_shot(2.0, {}, "tick"); });
+  const auto plan = compile(leaf);
+  Calendar calendar(*plan);
+  calendar.begin(0.0, false);
+  CHECK(calendar.stop_at_root(1.0, 2.0 - 0.9e-4) == 2.0);
+  CHECK(calendar.stop_at_root(1.0, 2.0 - 1.1e-4) == 2.0 - 1.1e-4);
+  const double near = 2.0 - 60.0 * 2.0 * eps, far = 2.0 - 70.0 * 2.0 * eps;
+  CHECK(calendar.stop_at_root(near, near) == 2.0);
+  CHECK(calendar.stop_at_root(far, far) == far);
+  CHECK(calendar.stop_at_root(1.0, 2.5) == 2.5);
+  std::vector<int> due;
+  calendar.take(2.0, due);
+  CHECK(calendar.stop_at_root(2.0, 3.0) == 3.0);  // there is no other one
+}
+
 TEST_CASE("a thousand ticks of 1/3 s are where integers put them", "[calendar]") {
   const Plan plan = schedules({{1.0 / 3.0, 0.0}});
   Calendar calendar(plan);

@@ -1,5 +1,6 @@
 // Location: pairs of roots, roots very close together, the earliest first, the state on the firing
 // side.
+#include "saltus/solver/detail/guard_search.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -128,6 +129,20 @@ TEST_CASE("by default a step has as many points as the degree of its interpolant
     // The first step of a run has four more, from which the distance of the looks is chosen.
     CHECK(looks(method, degree) == looks(method, 0) + degree + 4);
   }
+}
+
+TEST_CASE("a guard may be at zero at a stop where it is far nearer to zero than it moved", "[locate]") {
+  Guard guard;
+  guard.set(Phase::armed, -1, 0.0);
+  for (const double move : {1.0, -1.0, 1e-200, 1e200}) {
+    CHECK(is_beside_stop(guard, 0.0, move));
+    CHECK(is_beside_stop(guard, 1e-5 * move, move));
+    CHECK_FALSE(is_beside_stop(guard, 1e-3 * move, move));
+  }
+  guard.jumps = true;  // its value does not say how far its zero is
+  CHECK(is_beside_stop(guard, 1.0, 0.0));
+  guard.set(Phase::waiting, -1, 0.0);
+  CHECK_FALSE(is_beside_stop(guard, 0.0, 1.0));
 }
 
 TEST_CASE("looks inside steps that need none come after 7 of them, then 15, 31 and 63",

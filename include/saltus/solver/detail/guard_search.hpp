@@ -18,8 +18,8 @@ namespace saltus {
 /// Whether a guard may be at zero at a stop, within its rounding: its value there is far below its last
 /// `move`. A guard that jumps does not say how far its zero is.
 inline bool is_beside_stop(const Guard& guard, double value, double move) {
-  return guard.phase == Phase::armed && (guard.jumps || guard.stepped ||
-                                         std::abs(value) <= thresholds::beside_stop * std::abs(move));
+  return guard.phase == Phase::armed &&
+         (guard.jumps || std::abs(value) <= thresholds::beside_stop * std::abs(move));
 }
 
 /// Looks at the guards that are located together at a few interior points of a step, and searches

@@ -40,8 +40,9 @@ inline constexpr double jump_power = 0.75, jump_narrowing = 1e3;
 /// [eps |t|] A root so near to a stop is at the stop: some times the rounding of a time, and that of a
 /// state by which it was located. tests/semantics/instant_ties_test.cpp (as small)
 inline constexpr double stop_roundings = 64.0;
-/// [of its last move] A guard that is nearer to zero at a stop may be there by rounding: ten digits of the
-/// state, after moves that are a millionth of it. tests/unit/locate_test.cpp
+/// [of its last move, of the step] A guard that is nearer to zero at a stop may be there by rounding, and so
+/// may a root that is nearer to the end of its step: the rounding of a state is less than this part of a
+/// move that is 1e-11 of it. tests/unit/locate_test.cpp
 inline constexpr double beside_stop = 1e-4;
 /// [points] in a step of an interpolant of lower degree.
 /// tests/semantics/zeno_moving_frame_test.cpp
