@@ -313,7 +313,7 @@ TEST_CASE("a delay of zero that moves has no derivative, and a constant one has"
   const auto by = [](bool moves) {
     const Leaf leaf("leaf", [=](Leaf& l) {
       const ParameterIndex c = l.declare_dynamic_parameter("c", 0.0);
-      l.declare_continuous_state({.initial = vec({0.0}), .ode = [](const At&) { return 2.0; }});
+      l.declare_continuous_state({.initial = vec({0.0}), .ode = [](const At&) { return 1.5; }});
       l.declare_zero_crossing(
           {.name = "cross",
            .guard = [](const At& at) { return at.x[0] - 1.0; },
