@@ -20,8 +20,7 @@ std::vector<Tie> ties() {
   std::vector<Tie> all;
   for (const double rate : {1.0, -1.0 / 3.0, 7.3})
     for (const double start : {0.0, 2.7, -31.1})
-      for (const int n : {1, 2, 3, 6, 7, 11, 23, 30})
-        all.push_back({rate, start, n});
+      for (const int n : {1, 2, 3, 6, 7, 11, 23, 30}) all.push_back({rate, start, n});
   return all;
 }
 
@@ -29,7 +28,9 @@ std::vector<Tie> ties() {
 /// the sum of what the ticks read of z0.
 Leaf sampled(const Tie& tie, bool kicked = false) {
   return Leaf("sampled", [=](Leaf& l) {
-    const auto height = [=](const At& at) { return (at.x[0] - tie.level()) * (tie.rate > 0 ? 1 : -1); };
+    const auto height = [=](const At& at) {
+      return (at.x[0] - tie.level()) * (tie.rate > 0 ? 1 : -1);
+    };
     const RelationIndex above = l.declare_relation({.name = "above", .guard = height});
     declare_ramp(l, tie.rate, tie.start);
     l.declare_discrete_state(vec({0.0, 0.0, 0.0}));
@@ -60,8 +61,10 @@ std::string words(const Tie& tie) {
 
 }  // namespace
 
-TEST_CASE("3.1 a crossing within rounding of a tick belongs to it: the tick reads its relation, not its reset",
-          "[semantics]") {
+TEST_CASE(
+    "3.1 a crossing within rounding of a tick belongs to it: the tick reads its relation, not its "
+    "reset",
+    "[semantics]") {
   const auto method = GENERATE(from_range(methods));
   for (const Tie& tie : ties()) {
     INFO("method " << method << ", " << words(tie));

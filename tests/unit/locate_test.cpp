@@ -131,7 +131,8 @@ TEST_CASE("by default a step has as many points as the degree of its interpolant
   }
 }
 
-TEST_CASE("a guard may be at zero at a stop where it is far nearer to zero than it moved", "[locate]") {
+TEST_CASE("a guard may be at zero at a stop where it is far nearer to zero than it moved",
+          "[locate]") {
   Guard guard;
   guard.set(Phase::armed, -1, 0.0);
   for (const double move : {1.0, -1.0, 1e-200, 1e200}) {

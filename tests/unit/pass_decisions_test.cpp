@@ -24,7 +24,8 @@ TEST_CASE("a guard beside the root of another one has crossed only where the flo
     CHECK_FALSE(crossed_beside_root(direction, phase, unasked));
 }
 
-TEST_CASE("a guard beside the root of another one is on its armed side only if the flow takes it there") {
+TEST_CASE(
+    "a guard beside the root of another one is on its armed side only if the flow takes it there") {
   const auto direction =
       GENERATE(Direction::positive_then_non_positive, Direction::negative_then_non_negative);
   const int firing = firing_side(direction);
@@ -48,8 +49,8 @@ TEST_CASE("a guard crosses at a stop by its value, by the flow a rounding later,
   for (const int side : {-1, 1}) {
     Guard guard;
     guard.set(Phase::armed, side, 0.0);
-    CHECK(crosses_at_stop(guard, 0.0, side, 0.0, unasked));       // it is there
-    CHECK(crosses_at_stop(guard, side, -side, 0.0, unasked));     // it is there a rounding later
+    CHECK(crosses_at_stop(guard, 0.0, side, 0.0, unasked));    // it is there
+    CHECK(crosses_at_stop(guard, side, -side, 0.0, unasked));  // it is there a rounding later
     CHECK_FALSE(crosses_at_stop(guard, side, side, 0.5, unasked));
     CHECK(crosses_at_stop(guard, 0.4 * side, side, 0.5, to(-side)));
     CHECK_FALSE(crosses_at_stop(guard, 0.4 * side, side, 0.5, to(side)));
