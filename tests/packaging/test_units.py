@@ -72,7 +72,6 @@ ELSEWHERE = {
     "solver/detail/cvode": None,
     "solver/detail/cvode_thresholds": None,
     "solver/detail/explicit_step": "unit/dopri5_test.cpp",
-    "solver/detail/guard_search": "unit/locate_test.cpp",
     "solver/detail/kernels": None,
     "solver/detail/look_points": None,
     "solver/detail/matrix_cost": None,
