@@ -33,7 +33,8 @@ bool Chattering::rests(const Seen& seen) {
     resting_ = {0, seen.t};
     moved_.setZero(), moves_ = false;
   }
-  if (resting_.count == 0) resting_.since = seen.t;  // the time before the first event does not count
+  if (resting_.count == 0)
+    resting_.since = seen.t;  // the time before the first event does not count
   return resting_.full(resting_events, seen.t) &&
          seen.t - resting_.since <= resting_share * seen.length_of_run;
 }
