@@ -30,7 +30,7 @@ bool Chattering::idle(const Eigen::VectorXd& x) {
 bool Chattering::rests(const Seen& seen) {
   using namespace thresholds;
   if (moves_ || resting_.count >= resting_events) {
-    resting_ = {0, seen.t};
+    resting_ = {};
     moved_.setZero(), moves_ = false;
   }
   if (resting_.count == 0)
