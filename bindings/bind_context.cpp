@@ -75,10 +75,24 @@ std::string repr(const Context& context) {
   return out + (blocks == 1 ? ")" : text(", ", blocks, " blocks)"));
 }
 
+/// A context is a value: the answer to an assignment is what to write.
+[[noreturn]] void refuse_set(const py::object& self, const std::string& name, const py::object&) {
+  const std::string method = "with_" + name;
+  if (py::hasattr(self, method.c_str()))
+    throw py::attribute_error(text("a context is not changed in place; write context = context.",
+                                   method, name == "parameters" ? "({'k': 2.0})" : "(...)"));
+  std::vector<std::string> known;
+  for (const py::handle each : py::module_::import("builtins").attr("dir")(self))
+    if (auto one = each.cast<std::string>(); !one.starts_with('_')) known.push_back(std::move(one));
+  throw py::attribute_error(
+      text("'Context' object has no attribute '", name, "'", known_names(name, known)));
+}
+
 }  // namespace
 
 void bind_context(py::module_& module) {
   py::class_<Context> context(module, "Context", docs::context);
+  context.def("__setattr__", &refuse_set, py::arg("name"), py::arg("value"));
   context.def_property_readonly("time", &Context::time, "[s]")
       .def_property_readonly(
           "continuous_state", [](const Context& c) { return shown(c.continuous_state()); },
