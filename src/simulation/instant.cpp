@@ -218,6 +218,18 @@ void Instant::look_at_crossing(std::size_t k) {
     present_.fire(k, guard.side);
 }
 
+/// Notes when a guard fired. That is kept through other instants until the flow has taken the guard clearly off
+/// zero: the firing of another block says nothing about its side.
+void Instant::mark_armed_at(std::size_t k) {
+  const GuardNow& now = present_.now(k);
+  const Guard& guard = (*guards_)[k];
+  if (now.fired)
+    guards_->mark_armed_at(k, guard.at_zero() ? present_.t : not_armed,
+                           present_.t + now.clear_after);
+  else if (!(present_.t < guard.clear_at))
+    guards_->mark_armed_at(k, not_armed, not_armed);
+}
+
 /// Arms all active guards for the solver. A guard at zero, or a guard that just fired, gets its
 /// side from the flow.
 void Instant::arm(bool at_start) {
@@ -233,7 +245,7 @@ void Instant::arm(bool at_start) {
       contacts_.arm_crossing(k);
     else
       crossings_.arm(k, at_start);
-    guards_->mark_armed_at(k, present_.now(k).fired && guard.at_zero() ? present_.t : not_armed);
+    mark_armed_at(k);
   }
 }
 

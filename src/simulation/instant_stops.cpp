@@ -22,13 +22,13 @@ bool Instant::meets_stop(double t, double longest) {
 
 bool Instant::roots_are_at(double t, double root, double longest) {
   if (t - root <= Calendar::resolution(t)) return true;
-  present_.open(t, longest);
-  flow_.open(t, longest);
-  machine_->guards_at(t, machine_->x.data(), present_.g.data());
+  present_.open(root, longest);
+  flow_.open(root, longest);
   const bool there = std::ranges::all_of(guards_->fired_at_root, [&](const Firing& firing) {
     const std::size_t k = firing.guard();
     return !plan().guard((*guards_)[k].group).is_opaque() &&
-           std::abs(present_.g[k]) <= crossings_.uncertainty(k);
+           std::abs(flow_.value_after(t - root, static_cast<Index>(k))) <=
+               crossings_.uncertainty(k);
   });
   flow_.forget();
   return there;

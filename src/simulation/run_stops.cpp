@@ -13,7 +13,7 @@ void Run::finish_at_event(double from, double t_end) {
     Eigen::VectorXd &x, values;
   };
   const Kept kept(machine_.x);
-  machine_.x = integration_.at(event);
+  machine_.x = integration_.at(time_);
   if (!instant_.roots_are_at(event, time_, t_end - event)) return;
   time_ = event;
   if (integration_.finish_step(event)) return;

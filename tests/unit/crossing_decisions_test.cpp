@@ -375,3 +375,13 @@ TEST_CASE("A slope is passed through with if it went the same way before, and wa
   CHECK_FALSE(passed_through(1.0, 0.0));
   CHECK_FALSE(passed_through(1.0, -1.0));
 }
+
+TEST_CASE("A root is false if the flow still leaves zero, or if nothing shows that it has left") {
+  for (const int from : {1, -1}) {
+    CHECK(is_false_root(from, -from * 2.0 * eps, {from, eps}));
+    CHECK_FALSE(is_false_root(from, 0.0, {-from, eps}));
+    CHECK(is_false_root(from, -from * eps, {0, eps}));
+    CHECK(is_false_root(from, 0.0, {0, 0.0}));
+    CHECK_FALSE(is_false_root(from, -from * 2.0 * eps, {0, eps}));
+  }
+}

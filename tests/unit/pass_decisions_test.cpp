@@ -121,20 +121,22 @@ TEST_CASE("a guard's value is uncertain by its rounding, and by its slope times 
   CHECK(value_uncertainty(0.0, slope, t) == 8.0 * location_roundings * eps);
 }
 
-TEST_CASE("the flow is asked about a root only where the guard has been within its error") {
+TEST_CASE("the flow is asked about a root only where it may be rounding") {
   const RootFacts rounding{.armed_at_zero = true, .at_zero = true};
-  CHECK(may_be_rounding(rounding));
-  RootFacts true_root = rounding;
-  true_root.at_zero = false;
-  CHECK_FALSE(may_be_rounding(true_root));
-  RootFacts opaque = true_root;  // its values are only signs: it cannot be clearly off zero
-  opaque.opaque = true;
-  CHECK(may_be_rounding(opaque));
-  for (RootFacts facts : {rounding, opaque}) {
+  const RootFacts opaque{.armed_at_zero = true, .opaque = true};  // its values are only signs
+  const RootFacts soon{.soon = true};
+  CHECK_FALSE(may_be_rounding({}));
+  CHECK_FALSE(may_be_rounding({.armed_at_zero = true}));  // a true root
+  for (const RootFacts& facts : {rounding, opaque}) {
+    CHECK(may_be_rounding(facts));
+    RootFacts never_waited = facts;
+    never_waited.armed_at_zero = false;
+    CHECK_FALSE(may_be_rounding(never_waited));
+  }
+  for (RootFacts facts : {rounding, opaque, soon}) {
+    CHECK(may_be_rounding(facts));
     RootFacts other = facts;
-    other.armed_at_zero = false;
-    CHECK_FALSE(may_be_rounding(other));
-    other = facts, other.monitor = true;
+    other.monitor = true;
     CHECK_FALSE(may_be_rounding(other));
     other = facts, other.edge = true;
     CHECK_FALSE(may_be_rounding(other));

@@ -231,6 +231,19 @@ Arming decide_crossing(const CrossingFacts& guard, FlowSide flow, const Ask& ask
   return guard.fired ? decide_fired(guard, flow, ask) : decide_at_zero(guard, flow, ask);
 }
 
+/// Whether a root of a guard that has not been clearly off zero since it was armed on the side `from` is false.
+/// `value` is its value there; the flow was followed over its flight at most.
+///
+///     flow to        value              false root
+///     side `from`    -                  yes: it still leaves zero
+///     other side     -                  no: it has come back
+///     none           within its error   yes: nothing shows that it has left zero
+///     none           beyond it          no
+inline bool is_false_root(int from, double value, FlowSide flow) {
+  if (flow.side != 0) return flow.side == from;
+  return std::abs(value) <= flow.error;
+}
+
 /// Whether a guard was merely passed through: the flow before the reset had the same direction, and
 /// the reset did not nearly stop it. Both arguments are slopes towards the firing side.
 constexpr bool passed_through(double onward, double before) {

@@ -122,8 +122,16 @@ class GuardSet {
   void fired(std::size_t k, int from) { guards_[k].came_from = static_cast<signed char>(from); }
   /// Whether a relation keeps its truth from now on.
   void keep_truth(std::size_t k, bool yes) { guards_[k].rests = yes; }
-  /// Sets the time at which the guard began to wait after a firing; NaN for none.
-  void mark_armed_at(std::size_t k, double t) { guards_[k].armed_at = t; }
+  /// Sets the time at which the guard began to wait after a firing, and the time at which the flow has taken it
+  /// clearly off zero; NaN for none.
+  void mark_armed_at(std::size_t k, double t, double clear_at) {
+    guards_[k].armed_at = t, guards_[k].clear_at = clear_at, guards_[k].doubted = 0.0;
+  }
+  /// A root was false: the guard waits at zero within `error` for `side`.
+  void doubt(std::size_t k, int side, double error) {
+    wait(k, side, error);
+    guards_[k].doubted = error;
+  }
 
   /// A step is searched: `keep` remembers the records once before they are written, `restore`
   /// undoes what was written since.
@@ -180,5 +188,7 @@ class GuardSet {
 // The part of a continuation that a run needs to continue with the same records.
 std::vector<Continuation::Guard> records_of(const GuardSet& guards);
 void load_records(GuardSet& guards, const std::vector<Continuation::Guard>& from);
+std::vector<Continuation::Leaving> leaving_of(const GuardSet& guards);
+void load_leaving(GuardSet& guards, const std::vector<Continuation::Leaving>& from);
 
 }  // namespace saltus
