@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "saltus/model/event.hpp"
+#include "saltus/solver/detail/edge_series.hpp"
 
 namespace saltus {
 
@@ -60,6 +61,7 @@ struct Guard : GuardTraits {
   double error = 0.0;           ///< the guard is at zero within it
   double base = 0.0;            ///< edge_detection: fires at any other value
   double armed_at = not_armed;  ///< [s] when it began to wait after a firing
+  EdgeSeries edges = {};        ///< edge_detection: its last firings inside steps
 
   /// The direction in which it is watched: the direction of the lift while its block is carried.
   Direction watched_direction() const {
