@@ -49,6 +49,19 @@ Context with_parameter(const Context& context, const std::string& name, py::hand
   return context.with_parameter(name, to_vector(value, text("parameter '", name, "'")));
 }
 
+/// A name of another type than str is a mistake that Python's own words for it do not explain.
+Context with_parameters(Context context, const py::dict& values) {
+  for (const auto& [name, value] : values) {
+    if (!py::isinstance<py::str>(name))
+      throw py::type_error(
+          text("with_parameters: expected the names of parameters, as in {'gain': 2.0}, "
+               "found the key ",
+               std::string(py::repr(name))));
+    context = with_parameter(context, name.cast<std::string>(), value);
+  }
+  return context;
+}
+
 bool equal(const Context& a, const Context& b) {
   const auto paths = [](const Context& context) {
     std::vector<std::string> all;
@@ -144,14 +157,7 @@ void bind_context(py::module_& module) {
       .def("with_mode", &Context::with_mode, py::arg("mode"), docs::with_mode)
       .def("with_parameter", &with_parameter, py::arg("name"), py::arg("value"),
            docs::with_parameter)
-      .def(
-          "with_parameters",
-          [](Context c, const py::dict& values) {
-            for (const auto& [name, value] : values)
-              c = with_parameter(c, name.cast<std::string>(), value);
-            return c;
-          },
-          py::arg("values"), docs::with_parameters)
+      .def("with_parameters", &with_parameters, py::arg("values"), docs::with_parameters)
       .def(
           "__getitem__", [](const Context& c, py::handle system) { return c[id_of(system)]; },
           py::arg("system"), docs::subcontext)

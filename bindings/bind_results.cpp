@@ -201,11 +201,13 @@ py::object cause_of(const Results& results) {
     if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
     return error.value();
   } catch (const SimulationError& error) {
-    return error_class("SimulationError")(error.what(), error.time(), error.block());
+    return ask(error_class("SimulationError"), error.what(), error.time(), error.block());
   } catch (const ModelError& error) {
-    return error_class("ModelError")(error.what());
+    const py::object python = ask(error_class("ModelError"), error.what());
+    set_cause(python, error.cause());
+    return python;
   } catch (const std::exception& error) {
-    return error_class("Error")(error.what());
+    return ask(error_class("Error"), error.what());
   }
 }
 

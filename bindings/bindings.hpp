@@ -4,6 +4,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <exception>
+
 namespace saltus {
 class Context;
 }
@@ -39,5 +41,8 @@ void bind_tape(py::module_& module);
 
 /// An exception class of python/saltus/errors.py.
 py::object error_class(const char* name);
+/// An exception of Python gets what a function of the user raised as its `__cause__`; nothing if `cause`
+/// is null or no exception of Python.
+void set_cause(py::handle exception, const std::exception_ptr& cause);
 
 }  // namespace saltus::python

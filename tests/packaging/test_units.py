@@ -18,6 +18,7 @@ ELSEWHERE = {
     "model/detail/sound": "unit/context_json_test.cpp",
     "model/detail/soundness": "unit/diagram_builder_test.cpp",
     "model/detail/wiring_errors": "errors/model_errors_test.cpp",
+    "model/detail/shape_guess": "python/errors/test_shapes_that_are_guesses.py",
     "plan/detail/arguments": None,
     "plan/detail/calls": None,
     "plan/detail/controls": "unit/library_subsystems_test.cpp",

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "saltus/model/event.hpp"
+#include "saltus/solver/detail/edge_series.hpp"
 
 namespace saltus {
 
@@ -60,9 +61,9 @@ struct Guard : GuardTraits {
   double error = 0.0;           ///< the guard is at zero within it
   double base = 0.0;            ///< edge_detection: fires at any other value
   double armed_at = not_armed;  ///< [s] when it began to wait after a firing
-  double clear_at =
-      not_armed;         ///< [s] when the flow has taken it clearly off zero after that firing
-  double doubted = 0.0;  ///< its error at its last false root since then
+  double clear_at = not_armed;  ///< [s] when the flow has taken it clearly off zero after that
+  double doubted = 0.0;         ///< its error at its last false root since then
+  EdgeSeries edges = {};        ///< edge_detection: its last firings inside steps
 
   /// The direction in which it is watched: the direction of the lift while its block is carried.
   Direction watched_direction() const {

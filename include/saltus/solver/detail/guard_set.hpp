@@ -163,6 +163,10 @@ class GuardSet {
     const int now = guard.sign(value);
     if (now != 0 || guard.direction == Direction::edge_detection) guard.settle(now);
   }
+  /// An edge that was located; true if the guard fires without end.
+  bool edge(std::size_t k, const EdgeSeries::Firing& firing) {
+    return guards_[k].edges.is_endless(firing);
+  }
   /// A guard that waits was clearly on its side at a look: it becomes armed.
   void leave_zero(std::size_t k) { guards_[k].settle(guards_[k].side); }
   /// A monitor that crossed is at zero on its new side.

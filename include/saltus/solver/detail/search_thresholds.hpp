@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace saltus::thresholds {
 
@@ -125,6 +126,19 @@ inline constexpr double steep_ranges = 2.0;
 /// [pieces] in one step that are as short as allowed and do not show a guard, or that seem to show
 /// noise in a row: it then counts no more for 63 steps. tests/unit/look_pace_test.cpp
 inline constexpr int most_in_vain = 16;
+
+// --- edge_detection of a value that varies all the time: edge_series.hpp
+
+/// [eps of the value] A guard that has changed by less varies by its rounding: the operands of a
+/// difference have one each, and so has the difference. tests/unit/edge_series_test.cpp
+inline constexpr double edge_roundings = 4.0;
+/// [eps |t|] and [of the step]: firings that follow each other within this time. A root is located to some
+/// roundings of the time; a step with ten million firings would take longer than a run may.
+/// tests/unit/edge_series_test.cpp
+inline constexpr double edge_gap = 1e3, edge_share = 1e-7;
+/// [firings] So many in a row are without end: more than a staircase has by chance.
+/// tests/unit/edge_series_test.cpp
+inline constexpr std::int64_t endless_edges = 1000;
 
 // --- many monitors at once: crowd_locator.hpp, guard_polynomials.hpp
 
