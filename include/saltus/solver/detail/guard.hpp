@@ -8,6 +8,7 @@
 
 #include "saltus/model/event.hpp"
 #include "saltus/solver/detail/edge_series.hpp"
+#include "saltus/plan/rate.hpp"
 
 namespace saltus {
 
@@ -39,8 +40,9 @@ struct GuardTraits {
   bool monitor = false;  ///< located and logged, stops nothing
   bool jumps = false;    ///< takes only two values: located by bisection
   bool stepped = false;  ///< may be constant while the state varies
-  int group = -1;        ///< index in the plan's list of guards
-  int entry = 0;         ///< index in that group
+  FollowsTime follows_time = FollowsTime::no;
+  int group = -1;  ///< index in the plan's list of guards
+  int entry = 0;   ///< index in that group
 };
 
 /// The record of one guard. GuardSet is its only writer.

@@ -27,10 +27,13 @@ struct LocatedGuards {
   std::vector<int> groups;          ///< the groups of these slots, in the order of the plan
   std::vector<LookedRead> reads;    ///< what may vary while some of them are constant
   std::vector<std::size_t> looked;  ///< the slots of these guards and of what they read
+  FollowsTime follow_time =
+      FollowsTime::no;  ///< what is known of the guard that does so most surely
 
-  void add(std::size_t slot, int group) {
+  void add(std::size_t slot, const GuardTraits& guard) {
     slots.push_back(slot), looked.push_back(slot);
-    if (groups.empty() || groups.back() != group) groups.push_back(group);
+    if (groups.empty() || groups.back() != guard.group) groups.push_back(guard.group);
+    follow_time = std::max(follow_time, guard.follows_time);
   }
   void add_reads(const GuardGroup& group) {
     const auto first = static_cast<std::size_t>(group.slot);
@@ -40,7 +43,10 @@ struct LocatedGuards {
       looked.push_back(slot);
     }
   }
-  void clear() { slots.clear(), groups.clear(), reads.clear(), looked.clear(); }
+  void clear() {
+    slots.clear(), groups.clear(), reads.clear(), looked.clear();
+    follow_time = FollowsTime::no;
+  }
 };
 
 /// The guards that can fire in the present modes: all, the guards that stop the solver, and the
@@ -52,7 +58,7 @@ struct ActiveGuards {
 
   void add(std::size_t slot, const GuardTraits& guard) {
     all.push_back(slot);
-    (guard.monitor ? monitors : stopping).add(slot, guard.group);
+    (guard.monitor ? monitors : stopping).add(slot, guard);
   }
   void add_reads(const GuardGroup& group) {
     (group.monitor ? monitors : stopping).add_reads(group);

@@ -113,6 +113,15 @@ inline constexpr double look_roundings = 4.0;
 /// as in the first step. A sine that is slow has 24 looks in a period; three in a period, at eight
 /// times the distance, still show that it is fast. tests/unit/look_pace_test.cpp
 inline constexpr double known_growth = 8.0;
+/// [1] How much longer than the last step that was looked into a step may be that passes without a look
+/// inside, where a guard follows the time. A sine that is slow has 24 looks in a period, so that the step
+/// of six looks that showed it is a quarter of a period, and the next one half of it.
+/// tests/unit/look_pace_test.cpp
+inline constexpr double seen_growth = 2.0;
+/// [of an evenly spaced piece] How far two times are apart at which a called function is asked whether it
+/// follows the time, with one state: many roundings of the time, and a small part of the way to a time
+/// at which that state would be impossible. tests/laws/timed_guards_test.cpp
+inline constexpr double times_apart = 1.0 / 64.0;
 /// [pieces] The second of the three looks that begin a run: the golden ratio, which is far from
 /// each ratio of small numbers. tests/laws/fast_guards_test.cpp
 inline constexpr double uneven = 1.6180339887498949;
