@@ -57,9 +57,10 @@ class GuardSearch : private PacedSearch {
       std::copy_n(part.guards, high_.size(), high_.data());
     else if (!std::exchange(looked_, false))
       look(part.to, part.end, interpolate, high_);
-    passes_ = scans() && part.points == nullptr && !follow_time();
+    const bool timed = follow_time();
+    passes_ = scans() && part.points == nullptr && !timed;
     const double length = part.to - part.from;
-    const bool skips = scans() && may_pass(length) && out_of_reach(length);
+    const bool skips = scans() && (!timed || shows(length)) && out_of_reach(length);
     if (!skips || skipped_ >= patience_) return find_inside(part, skips, interpolate);
     ++skipped_;
     shift_all(part.from, part.to);
@@ -122,7 +123,7 @@ class GuardSearch : private PacedSearch {
       from = early;
     }
     begin_pieces(from, length, interpolate);
-    passes_ = passes_ && !follow_time();  // it may have been found
+    if (passes_) passes_ = !follow_time();  // it may have been found
     for (int piece = 1;; ++piece) {
       const bool last = piece == pieces;
       if (last) {

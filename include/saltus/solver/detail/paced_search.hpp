@@ -26,8 +26,7 @@ class PacedSearch : protected TimedSearch {
 
   void begin_run() { pace_.begin_run(), probe_ = {}; }
 
-  /// Whether a step of this length [s] may pass without a look inside.
-  bool may_pass(double length) const { return !follow_time() || pace_.shows(length); }
+  bool shows(double length) const { return pace_.shows(length); }
 
   /// Keeps what outlives a restart: the pace, which guards count, and how fast they move.
   void keep() {
@@ -51,13 +50,8 @@ class PacedSearch : protected TimedSearch {
     even_ = even, records_may_differ_ = false;
     least_ = std::max(even * thresholds::finest_piece, thresholds::look_roundings * resolution_);
     pace_.see(end_at_ - from);
-    begin_asking();
     bool unknown = pace_.begin_step(even, least_);
-    if (asks() && !unknown) {
-      look(from, nullptr, interpolate, before_);
-      ask(from, before_, even_, interpolate);
-    }
-    unknown = unknown || (follow_time() && pace_.is_doubtful(even, earlier_at_ == never));
+    if (located_->follow_time != FollowsTime::no) unknown = doubts(from, unknown, interpolate);
     const bool judges_all = pace_.is_finer_than(even) && has_four_looks();
     back_to_ = judges_all ? never : from;
     begin_.earlier_at = earlier_at_, begin_.oldest_at = oldest_at_;
@@ -81,6 +75,18 @@ class PacedSearch : protected TimedSearch {
   }
 
  private:
+  /// Whether the looks have to be chosen anew because of a guard that follows the time, or anyway. A
+  /// function that is asked at the begin of the step is asked in `choose_pace`, if that is called.
+  template <class Interpolate>
+  bool doubts(double from, bool anyway, const Interpolate& interpolate) {
+    begin_asking();
+    if (asks() && !anyway) {
+      look(from, nullptr, interpolate, before_);
+      ask(from, before_, even_, interpolate);
+    }
+    return anyway || (follow_time() && pace_.is_doubtful(even_, earlier_at_ == never));
+  }
+
   /// The last three looks.
   struct Looks {
     List<double> last, earlier, oldest;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
+#include <cstdint>
 
 #include "saltus/base/detail/forced_unwind.hpp"
 #include "saltus/base/error.hpp"
@@ -15,19 +15,20 @@ namespace saltus {
 /// What the looks of a run say of functions that may follow the time: called functions that do not
 /// declare what they read.
 struct TimeProbe {
-  unsigned steps = 0;  ///< that were looked into
+  std::int64_t steps = 0;  ///< that were looked into
+  std::int64_t due = 1;    ///< the next of them in which such functions are asked
   bool found = false;
 
   /// A step is looked into: whether such functions are asked in it. They may be constant at times, so
   /// they are asked in the first step, the fourth, the sixteenth, and so on.
   bool is_due() {
-    if (found) return false;
-    ++steps;
-    return std::has_single_bit(steps) && std::countr_zero(steps) % 2 == 0;
+    if (found || ++steps != due) return false;
+    due *= 4;
+    return true;
   }
   /// Whether some guard follows the time, as far as is known.
-  bool follow(FollowsTime known) const {
-    return known == FollowsTime::yes || (known == FollowsTime::perhaps && found);
+  [[gnu::always_inline]] bool follow(FollowsTime known) const {
+    return known != FollowsTime::no && (found || known == FollowsTime::yes);
   }
 };
 
@@ -37,7 +38,7 @@ class TimedSearch : protected PieceSearch {
   TimedSearch(Machine& machine, GuardSet& guards, const LocatedGuards& located)
       : PieceSearch(machine, guards, located), before_(machine.plan().look_slots, 1.0) {}
 
-  bool follow_time() const { return probe_.follow(located_->follow_time); }
+  [[gnu::always_inline]] bool follow_time() const { return probe_.follow(located_->follow_time); }
 
   /// A step is looked into: whether some functions have to be asked in it.
   void begin_asking() { asks_ = located_->follow_time == FollowsTime::perhaps && probe_.is_due(); }
