@@ -75,8 +75,8 @@ class PacedSearch : protected TimedSearch {
   }
 
  private:
-  /// Whether the looks have to be chosen anew because of a guard that follows the time, or anyway. A
-  /// function that is asked at the begin of the step is asked in `choose_pace`, if that is called.
+  /// Whether the distance of the looks has to be chosen anew: because of a guard that follows the time,
+  /// or `anyway`. Then `choose_pace` asks the functions that are due, at one of its own looks.
   template <class Interpolate>
   bool doubts(double from, bool anyway, const Interpolate& interpolate) {
     begin_asking();
