@@ -205,10 +205,16 @@ void Instant::continue_beside_root(std::size_t k) {
   if (side != guard.side) guards_->wait(k, side, flow.rounding);
 }
 
+/// Whether a guard that fired in an earlier pass is where its root was, within its error.
+bool Instant::stays_at_root(std::size_t k) const {
+  const GuardNow& now = present_.now(k);
+  return now.fired && side_after_firing(present_.g[k], now.location) == 0;
+}
+
 void Instant::look_at_crossing(std::size_t k) {
   const Guard& guard = (*guards_)[k];
   const double g = present_.g[k];
-  if (!guard.crossed(g)) return guards_->see(k, g);
+  if (!guard.crossed(g)) return stays_at_root(k) ? guards_->turn(k, 0) : guards_->see(k, g);
   if (present_.now(k).turned_beside_root && !left_zero_beside_root(k)) {
     guards_->turn(k, firing_side(guard.direction));
     return guards_->see(k, g);

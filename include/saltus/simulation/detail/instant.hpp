@@ -111,6 +111,7 @@ class Instant {
   void run_pass();
   void commit();
   void find_next();
+  bool stays_at_root(std::size_t k) const;
   void look_at_crossing(std::size_t k);
   bool left_zero_beside_root(std::size_t k);
   void continue_beside_root(std::size_t k);

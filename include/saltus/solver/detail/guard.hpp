@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "saltus/model/event.hpp"
-#include "saltus/solver/detail/edge_series.hpp"
 #include "saltus/plan/rate.hpp"
+#include "saltus/solver/detail/edge_series.hpp"
 
 namespace saltus {
 
