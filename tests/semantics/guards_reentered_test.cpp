@@ -179,3 +179,42 @@ TEST_CASE("3.7 a mode that is left and entered again in one instant is entered",
           CHECK(std::abs(results.context.continuous_state()[0] - (to + 0.5)) <= 1e-12);
         }
 }
+
+/// x falls from 1. "leave" enters mode 1 at x = 0, where the guard "fires" is seen, with the value z + 0.5: on its
+/// armed side. A third guard carries it across.
+TEST_CASE("3.7 a guard that fires in the instant in which its mode is entered fires once",
+          "[semantics]") {
+  const auto method = GENERATE(from_range(methods));
+  const Leaf leaf("leaf", [](Leaf& l) {
+    l.declare_default_mode(0);
+    l.declare_continuous_state(
+        {.initial = vec({1.0}), .ode = [](const At& at) { return at.mode == 0 ? -1.0 : 1.0; }});
+    l.declare_discrete_state(vec({0.0, 0.0}));
+    l.declare_zero_crossing(
+        {.name = "leave",
+         .guard = [](const At& at) { return at.x[0]; },
+         .reset_map = [](const At& at, Next& next) { next.set_discrete_state({1.0, at.z[1]}); },
+         .direction = Direction::positive_then_non_positive,
+         .start_mode = 0,
+         .end_mode = 1});
+    l.declare_zero_crossing(
+        {.name = "carry",
+         .guard = [](const At& at) { return at.z[0] - 0.5; },
+         .reset_map = [](const At& at,
+                         Next& next) { next.set_discrete_state({at.z[0] + 1.0, at.z[1]}); },
+         .direction = Direction::negative_then_non_negative});
+    // It turns with the mode: in mode 0 its slope is -1, in mode 1 +1.
+    l.declare_zero_crossing(
+        {.name = "fires",
+         .guard = [](const At& at) { return at.x[0] - 1.5 + at.z[0]; },
+         .reset_map = [](const At& at,
+                         Next& next) { next.set_discrete_state({at.z[0], at.z[1] + 1.0}); },
+         .direction = Direction::negative_then_non_negative,
+         .start_mode = 1});
+  });
+  const Results results =
+      simulate(leaf, leaf.create_context(), {0.0, 1.25}, {.ode_solver_method = method});
+  for (const char* name : {"leave", "carry", "fires"})
+    CHECK(results.events.times(name).size() == 1);
+  CHECK(results.context.discrete_state() == vec({2.0, 1.0}));
+}

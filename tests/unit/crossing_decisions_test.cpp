@@ -355,15 +355,15 @@ TEST_CASE("A guard whose mode was entered at its zero") {
        {0, eps},
        {.slope_ = 0.0},
        within_tolerance(1)},
-      {"fired into a mode that leads back too: it fires",
+      {"fired since its mode was entered: decided as one that fired",
        [&] {
          CrossingFacts f = entered;
          f.fired = true, f.came_from = 1;
          return f;
        }(),
        {-1, eps},
-       {.round = true},
-       slides},
+       {},
+       waits_at(-1)},
       {"a monitor does not slide", monitor, {-1, eps}, {.slope_ = -1.0}, waits_at(-1)},
   });
 }
