@@ -29,8 +29,8 @@ const char* class_of(const ModelError& error) {
   return is(std::type_identity<StaticError>()) ? "StaticError" : "ModelError";
 }
 
-}  // namespace
-
+/// An exception of Python gets what a function of the user raised as its `__cause__`; nothing if `cause`
+/// is null or no exception of Python.
 void set_cause(py::handle exception, const std::exception_ptr& cause) {
   if (!cause) return;
   try {
@@ -42,17 +42,27 @@ void set_cause(py::handle exception, const std::exception_ptr& cause) {
   }
 }
 
+}  // namespace
+
+py::object as_python(const SimulationError& error) {
+  return ask(error_class("SimulationError"), error.what(), error.time(), error.block());
+}
+
+py::object as_python(const ModelError& error, const char* name) {
+  py::object python = ask(error_class(name), error.what());
+  set_cause(python, error.cause());
+  return python;
+}
+
 void bind_errors(py::module_& module) {
   py::register_local_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const SimulationError& error) {
-      const py::object python =
-          ask(error_class("SimulationError"), error.what(), error.time(), error.block());
+      const py::object python = as_python(error);
       py::set_error(py::type::of(python), python);
     } catch (const ModelError& error) {
-      const py::object python = ask(error_class(class_of(error)), error.what());
-      set_cause(python, error.cause());
+      const py::object python = as_python(error, class_of(error));
       py::set_error(py::type::of(python), python);
     } catch (const Error& error) {
       py::set_error(error_class("Error"), error.what());

@@ -201,11 +201,9 @@ py::object cause_of(const Results& results) {
     if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
     return error.value();
   } catch (const SimulationError& error) {
-    return ask(error_class("SimulationError"), error.what(), error.time(), error.block());
+    return as_python(error);
   } catch (const ModelError& error) {
-    const py::object python = ask(error_class("ModelError"), error.what());
-    set_cause(python, error.cause());
-    return python;
+    return as_python(error, "ModelError");
   } catch (const std::exception& error) {
     return ask(error_class("Error"), error.what());
   }

@@ -8,7 +8,9 @@
 
 namespace saltus {
 class Context;
-}
+class ModelError;
+class SimulationError;
+}  // namespace saltus
 
 namespace saltus::python {
 
@@ -41,8 +43,8 @@ void bind_tape(py::module_& module);
 
 /// An exception class of python/saltus/errors.py.
 py::object error_class(const char* name);
-/// An exception of Python gets what a function of the user raised as its `__cause__`; nothing if `cause`
-/// is null or no exception of Python.
-void set_cause(py::handle exception, const std::exception_ptr& cause);
+/// The exception of Python for an error of a run, and for one of a model: of this class, with its cause.
+py::object as_python(const SimulationError& error);
+py::object as_python(const ModelError& error, const char* name);
 
 }  // namespace saltus::python
