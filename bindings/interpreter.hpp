@@ -31,9 +31,9 @@ decltype(auto) until_shutdown(Work work) {
 #endif
 }
 
-/// Calls a function of Python, which may run any code and wait for the lock. No object of this frame,
-/// nor of one that it calls, has a destructor on the way of the unwinding: see until_shutdown. A call
-/// by pybind11, `function(...)`, has one, its arguments.
+/// Calls a function of Python, which may run any code and wait for the lock. The unwinding of a thread that
+/// the interpreter ends (see until_shutdown) meets no destructor of a Python object here. In a call by
+/// pybind11, `function(...)`, it meets that of the arguments.
 inline py::object ask_with(py::handle function, const py::tuple& arguments,
                            const py::dict& keywords) {
   PyObject* const result = until_shutdown(

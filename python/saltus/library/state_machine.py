@@ -239,8 +239,8 @@ class StateMachine(LeafSystem):
         first: tuple[Condition, ...],
         again: bool,
     ) -> None:
-        """A transition, which waits behind those that come first. With `again` one of the source to
-        itself may have been taken before it.
+        """Declares a transition that is taken only if none of `first` is due. With `again`, a
+        transition from the source to itself may have been taken before it in the same pass.
         """
         where, words = f"transition '{event}'", self._words
         source, target = self._at(each.source, where), self._at(each.target, where)

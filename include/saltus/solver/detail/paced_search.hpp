@@ -163,9 +163,9 @@ class PacedSearch : protected TimedSearch {
     }
   }
 
-  /// Whether looks at oldest_at_, earlier_at_, `third` and `last`, and the derivatives at the first of
-  /// them, do not show some guard. One that follows the time has to be shown where the next pieces
-  /// bring it near to zero, too.
+  /// Whether some guard varies faster than the looks at oldest_at_, earlier_at_, `third` and `last` and
+  /// the derivatives at the first of these can show. A guard that follows the time is judged also where it
+  /// is far from zero.
   bool hides_from_begin(double third, double last) {
     constexpr double pieces = 1.0 / thresholds::near_share;  // from the difference to a piece
     for (const std::size_t k : located_->looked) guards_->g[k] = middle_[k];  // no others

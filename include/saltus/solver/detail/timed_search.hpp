@@ -32,7 +32,7 @@ struct TimeProbe {
   }
 };
 
-/// Knows from the plan which guards follow the time, and asks those that the plan does not know.
+/// Finds out which guards follow the time: from the plan, or by a look where the plan does not know it.
 class TimedSearch : protected PieceSearch {
  protected:
   TimedSearch(Machine& machine, GuardSet& guards, const LocatedGuards& located)
@@ -45,8 +45,8 @@ class TimedSearch : protected PieceSearch {
   bool asks() const { return asks_; }
 
   /// Asks whether some guard varies from `u` on while the state is kept; x_ has the state at u, and
-  /// `values` the guards. A function that throws is taken for one that does: it need not stand a state
-  /// that does not belong to the time.
+  /// `values` the guards. A function that throws is taken for one that does: it may refuse
+  /// a state that does not belong to the time.
   template <class Interpolate>
   void ask(double u, const List<double>& values, double even, const Interpolate& interpolate) {
     asks_ = false;
