@@ -22,7 +22,7 @@ GuardSet::GuardSet(const Plan& plan) : g(plan.look_slots, 1.0) {
                           .monitor = group.monitor,
                           .jumps = group.is_opaque(),
                           .stepped = group.stepped,
-                          .follows_time = group.follows_time,
+                          .follows_time = group.turns ? FollowsTime::yes : group.follows_time,
                           .group = static_cast<int>(i),
                           .entry = entry}});
     }

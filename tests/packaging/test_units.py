@@ -40,6 +40,7 @@ ELSEWHERE = {
     "simulation/detail/deliveries": "semantics/event_wires_delay_test.cpp",
     "simulation/detail/endings": "errors/chattering_errors_test.cpp",
     "simulation/detail/executions": "semantics/queue_schedule_test.cpp",
+    "simulation/detail/first_time": "laws/fast_effects_test.cpp",
     "simulation/detail/flow_chain": "unit/declared_derivatives_test.cpp",
     "simulation/detail/flow_jumps": "laws/sensitivities_test.cpp",
     "simulation/detail/flow_probe": "unit/departure_test.cpp",

@@ -85,6 +85,22 @@ TEST_CASE("a guard of a state does not, nor one of a held signal", "[plan]") {
   CHECK(behind(std::make_shared<Step>("step", StepOptions{}), reader(true)) == FollowsTime::no);
 }
 
+TEST_CASE("the expression of a guard says whether it turns by a state", "[plan]") {
+  const auto turns = [](Formula formula) {
+    const Leaf leaf("leaf", [&](Leaf& l) {
+      declare_oscillator(l);
+      l.declare_discrete_state(vec({1.0}));
+      l.declare_zero_crossing({.name = "hit", .formula = std::move(formula)});
+    });
+    return compile(leaf)->guards.front().turns;
+  };
+  CHECK(turns(Formula([](const auto& at) { return cos(at.x(0) * 2.0); })));
+  CHECK(turns(Formula([](const auto& at) { return at.x(1) - sin(at.time() + at.x(0)); })));
+  CHECK_FALSE(turns(Formula(of_state)));
+  CHECK_FALSE(turns(Formula([](const auto& at) { return at.x(0) - sin(at.time()); })));
+  CHECK_FALSE(turns(Formula([](const auto& at) { return exp(at.x(0)) - sin(at.z(0)); })));
+}
+
 TEST_CASE("a called output says what it reads, or it may follow the time", "[plan]") {
   CHECK(behind(state(Reads::continuous_state), reader(true)) == FollowsTime::no);
   CHECK(behind(state(Reads::continuous_state | Reads::time), reader(true)) == FollowsTime::yes);

@@ -83,6 +83,7 @@ struct GuardGroup {
   List<ReadSlot> reads = {};       // values that may vary while it is constant
   bool stepped = false;            // it may be constant while what it reads varies
   FollowsTime follows_time = FollowsTime::no;
+  bool turns = false;  // its formula, or one behind it, has a sine or the like of a state
 
   bool is_crossing() const { return kind == Kind::crossing; }
   bool is_opaque() const { return kind == Kind::opaque; }

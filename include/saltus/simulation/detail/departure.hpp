@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "saltus/simulation/detail/flow_probe.hpp"
+#include "saltus/simulation/detail/first_time.hpp"
 #include "saltus/solver/detail/guard.hpp"
 
 namespace saltus {
@@ -16,10 +16,10 @@ namespace saltus {
 /// Follows the flow from (t, x) for a short time d, to second order, and to fourth if second order
 /// shows nothing. d grows until the guard has left zero by more than its rounding: that is its side.
 /// A guard that stays within its rounding has no side.
-class Departure : public FlowProbe {
+class Departure : public FirstTime {
  public:
   Departure(Machine& machine, const SimulatorOptions& options)
-      : FlowProbe(machine, options), longest_step_(options.max_minor_step_size) {}
+      : FirstTime(machine, options), longest_step_(options.max_minor_step_size) {}
 
   /// The side to which the flow takes a guard (0: none), the rounding bound used to decide it, and the time [s]
   /// after which the guard shows its side.
@@ -66,7 +66,7 @@ class Departure : public FlowProbe {
   /// uses. Extrapolation removes the curvature, because the curvature of a ball at rest is no
   /// speed. A result within rounding counts as zero.
   double slope(const GuardGroup& group, Index slot) {
-    const double d = first_time(group);
+    const double d = first_time(group, slot);
     const double near = (guard_after(0.5 * d, slot) - g0(slot)) / (0.5 * d);
     const double g = guard_after(d, slot), far = (g - g0(slot)) / d,
                  extrapolated = 2.0 * near - far;
@@ -81,7 +81,7 @@ class Departure : public FlowProbe {
   /// not have, and above the common measure of the values. Values that are a few roundings of the
   /// terms have one, a rounding; those of a smooth guard at times without one have none.
   bool is_slope_sure(const GuardGroup& group, Index slot) {
-    const double d = first_time(group), g0 = this->g0(slot);
+    const double d = first_time(group, slot), g0 = this->g0(slot);
     const double g1 = guard_after(0.25 * d, slot), g2 = guard_after(0.5 * d, slot),
                  g3 = guard_after(0.75 * d, slot), g4 = guard_after(d, slot);
     const double whole = 4.0 * (g2 - g0) - (g4 - g0), half = 8.0 * (g1 - g0) - 2.0 * (g2 - g0);
@@ -95,13 +95,13 @@ class Departure : public FlowProbe {
 
   /// A bound of |d g / d t| along the flow over at most `longest` [s], its rounding included.
   double speed(const GuardGroup& group, Index slot, double longest) {
-    const double d = std::min(longest, thresholds::speed_looks * first_time(group));
+    const double d = std::min(longest, thresholds::speed_looks * first_time(group, slot));
     return std::abs(guard_after(d, slot) - g0(slot)) / d;
   }
 
   /// d g / d t along another flow f through (t, x), to first order.
   double slope_along(const Eigen::VectorXd& f, const GuardGroup& group, Index slot) {
-    const double d = first_time(group);
+    const double d = first_time(group, slot);
     forget_looks();
     x1_ = *x_ + d * f;
     look(t_ + d, x1_, slot, g_);
@@ -125,7 +125,7 @@ class Departure : public FlowProbe {
     if (!is_before(0.0, resolution)) return false;  // beyond its jump
     using namespace thresholds;
     const double clearly = state_roundings * resolution;  // so that the first distance is none
-    double d = first_time(group);
+    double d = first_time(group, slot);
     while (is_before(d, clearly))
       if ((d *= look_growth) > longest_) return false;  // the flow stays at the jump
     double back = clearly;
@@ -149,17 +149,10 @@ class Departure : public FlowProbe {
     return measure;
   }
 
-  /// The time of the first look for the guards of one group, from one departure.
-  struct FirstLook {
-    std::int64_t departure = 0;
-    const GuardGroup* group = nullptr;
-    double d = 0.0;  // [s]
-  };
-
   Side follow(const GuardGroup& group, Index slot, double error, int expected) {
     Side result{.rounding = error};
     const bool opaque = group.is_opaque();
-    double d = first_time(group);
+    double d = first_time(group, slot);
     for (double furthest = unknown;; d *= thresholds::look_growth) {
       const double g = guard_after(d, slot);
       const int side = sign_of(g);
@@ -181,7 +174,7 @@ class Departure : public FlowProbe {
 
   /// The time of the last look, from that of the first: a little beyond a move by the tolerance.
   double furthest_look(const GuardGroup& group, double d) const {
-    return std::min(longest_, std::max(thresholds::furthest_look * d, lift_time(group, d)));
+    return std::min(longest_, std::max(thresholds::furthest_look * time_of_states(group), lift_time(group, d)));
   }
 
   /// Whether a guard moves as much as the states do.
@@ -196,30 +189,6 @@ class Departure : public FlowProbe {
     for (Index i = 0; i < f_.size(); ++i)
       time = std::min(time, (rtol_[i] * std::abs((*x_)[i]) + atol_[i]) / std::abs(f_[i]));
     return time;
-  }
-
-  /// The time in which the fastest state that the guard depends on moves by its tolerance. A state
-  /// that hardly moves so far within the run is ignored: then the time or another block moves the
-  /// guard.
-  double first_time(const GuardGroup& group) {
-    if (first_.departure != departure() || first_.group != &group)
-      first_ = {departure(), &group, find_first_time(group)};
-    return first_.d;
-  }
-  double find_first_time(const GuardGroup& group) const {
-    double d = thresholds::first_look_of_run * longest_;  // for a guard that no state moves
-    bool moved = false;
-    for (int leaf : group.leaves) {
-      const PlanLeaf& of = machine_->plan().leaves[leaf];
-      for (Index i = of.x; i < of.x + of.nx; ++i) {
-        const double time = (rtol_[i] * std::abs((*x_)[i]) + atol_[i]) / std::abs(f_[i]);
-        // An infinite rate has no first time: from zero no look would be a later one.
-        if (!(time > 0.0 && time <= thresholds::slow_state_of_run * longest_)) continue;
-        d = moved ? std::min(d, time) : time;
-        moved = true;
-      }
-    }
-    return std::max(d, thresholds::time_roundings * eps * std::abs(t_));
   }
 
   /// Whether a guard at the state x1_ is on a side.
@@ -281,8 +250,7 @@ class Departure : public FlowProbe {
     return true;
   }
 
-  double longest_step_, longest_ = 0.0;  // [s]
-  FirstLook first_;
+  double longest_step_;  // [s]
 };
 
 }  // namespace saltus

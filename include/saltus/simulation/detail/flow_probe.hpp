@@ -59,6 +59,8 @@ class FlowProbe {
     disturbed_ = false, ++departures_;
   }
 
+  int group_of(Index slot) const { return looks_.group(slot); }
+
   /// The number of the present point among all departures.
   std::int64_t departure() const noexcept { return departures_; }
 

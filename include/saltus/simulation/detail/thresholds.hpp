@@ -43,6 +43,14 @@ inline constexpr double lift_off_tolerances = 30.0;
 /// [1] The time grows by this factor from look to look. Eight is a power of two: times stay exact.
 /// tests/unit/departure_test.cpp
 inline constexpr double look_growth = 8.0;
+/// [of the range of the early looks] A parabola that is further from a value does not show a guard. That of
+/// a sine is when they are half of a period. tests/unit/early_looks_test.cpp
+inline constexpr double shown_share = 1.0 / 16.0;
+/// [ranges of the early looks] A guard that would move further at its first slope turns between the looks:
+/// a parabola moves by at most four. tests/unit/early_looks_test.cpp
+inline constexpr double turning_ranges = 8.0;
+/// [times] that the first time may be eight times shorter: 2^36. tests/laws/fast_effects_test.cpp (as small)
+inline constexpr int shorter_times = 12;
 /// [first looks] Time of the furthest look: six looks. The solver finds later events.
 /// tests/unit/departure_test.cpp
 inline constexpr double furthest_look = 3e5;

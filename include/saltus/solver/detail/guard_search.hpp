@@ -116,14 +116,14 @@ class GuardSearch : private PacedSearch {
     const int pieces = 1 + (points_ == nullptr ? scan_points_ : static_cast<int>(points_->size()));
     const double length = (part.to - from) / pieces;
     double next = from;
+    begin_pieces(from, length, interpolate);
+    if (passes_) passes_ = !follow_time();  // it may have been found
     if (earlier_at_ == never && scans() && some_beyond()) {
-      const double early = from + thresholds::first_look * length;
+      const double early = from + thresholds::first_look * next_piece(length);
       look(early, nullptr, interpolate, high_);
       if (find_in(from, early, nullptr, interpolate)) return true;
       from = early;
     }
-    begin_pieces(from, length, interpolate);
-    if (passes_) passes_ = !follow_time();  // it may have been found
     for (int piece = 1;; ++piece) {
       const bool last = piece == pieces;
       if (last) {

@@ -58,6 +58,9 @@ class PacedSearch : protected TimedSearch {
     if (unknown) choose_pace(from, interpolate);
   }
 
+  /// [s] The length of the first piece, of which an even one is `even` long.
+  double next_piece(double even) const { return refines_ ? pace_.next(even) : even; }
+
   /// `find_in_piece` between two evenly spaced looks, in shorter pieces where a guard varies too
   /// fast for one; `high_` has the guards at its end.
   template <class Interpolate>
