@@ -26,8 +26,10 @@ bool turns(tape::Op op) {
     case rint:
     case mod:
     case fmod:
-    case floor_divide: return true;
-    default: return false;
+    case floor_divide:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -43,8 +45,8 @@ bool has_turn(const tape::Graph& graph, bool signals) {
   List<char> varies(graph.size(), 0);
   for (int id = 0; id < graph.size(); ++id) {
     const tape::Expression& each = graph[{id}];
-    varies[id] = each.op == tape::Op::continuous_state ||
-                 (each.op == tape::Op::discrete_state && signals);
+    varies[id] =
+        each.op == tape::Op::continuous_state || (each.op == tape::Op::discrete_state && signals);
     for (int k = 0; k < tape::operand_count(each.op); ++k)
       varies[id] = varies[id] || varies[each.operands[k].id];
     if (varies[id] && turns(each.op)) return true;
@@ -78,7 +80,7 @@ class FastGuards {
     if (!group.is_crossing()) return of_function(plan_.node(group.index));
     const std::vector<int> needs = nodes_of_guard(plan_, group);
     const Turning own = of_own(plan_.crossing_of(group).formula, Reads::everything, group.leaf,
-                                   group.size, are_continuous(needs));
+                               group.size, are_continuous(needs));
     return own.with(of_nodes(needs));
   }
 
@@ -103,8 +105,8 @@ class FastGuards {
   Turning of_function(const Node& node) {
     const Formula& formula =
         node.relation ? plan_.relation_of(node).formula : plan_.output_of(node).formula;
-    const Turning own = of_own(formula, detail::reads_of(plan_, node), node.leaf,
-                                   node.place.size, are_continuous(node.needs));
+    const Turning own = of_own(formula, detail::reads_of(plan_, node), node.leaf, node.place.size,
+                               are_continuous(node.needs));
     return own.with(of_nodes(node.needs));
   }
 
@@ -122,8 +124,8 @@ class FastGuards {
   }
 
   bool are_continuous(const std::vector<int>& nodes) const {
-    return std::ranges::any_of(
-        nodes, [&](int i) { return plan_.node(i).rate == Rate::continuous; });
+    return std::ranges::any_of(nodes,
+                               [&](int i) { return plan_.node(i).rate == Rate::continuous; });
   }
 
   Turning of_nodes(const std::vector<int>& nodes) const {

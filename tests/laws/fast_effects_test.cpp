@@ -19,9 +19,8 @@ struct Scene {
   std::shared_ptr<Leaf> make() const {
     return make_leaf("leaf", [*this](Leaf& l) {
       l.declare_continuous_state(
-          {.initial = vec({1.0, clock}), .ode = [r = rate](const At&, VectorRef xdot) {
-             xdot[0] = r, xdot[1] = 1.0;
-           }});
+          {.initial = vec({1.0, clock}),
+           .ode = [r = rate](const At&, VectorRef xdot) { xdot[0] = r, xdot[1] = 1.0; }});
       l.declare_discrete_state(vec({0.0}));
       ZeroCrossing hit{.name = "hit", .reset_map = ResetMap(count_up)};
       if (up) hit.direction = Direction::negative_then_non_negative;
@@ -47,18 +46,21 @@ struct Scene {
 
 }  // namespace
 
-TEST_CASE("each firing of a guard that turns while the states hardly move is found", "[laws][guards]") {
+TEST_CASE("each firing of a guard that turns while the states hardly move is found",
+          "[laws][guards]") {
   const auto method = GENERATE(from_range(methods));
-  const bool by_state = GENERATE(false, true), called = GENERATE(false, true), up = GENERATE(false, true);
+  const bool by_state = GENERATE(false, true), called = GENERATE(false, true),
+             up = GENERATE(false, true);
   if (by_state && called) return;  // nobody knows what such a function turns by
   for (const double frequency : {21.3, 57.0, 118.7}) {
     for (const double rtol : {1e-2, 1e-3, 1e-6}) {
       const Scene scene{frequency, 0.02, by_state ? 1000.0 : 0.0, by_state, called, up};
       const auto leaf = scene.make();
-      const auto results =
-          simulate(*leaf, leaf->create_context(), {0.0, end}, {.rtol = rtol, .ode_solver_method = method});
+      const auto results = simulate(*leaf, leaf->create_context(), {0.0, end},
+                                    {.rtol = rtol, .ode_solver_method = method});
       // The time and the clock have a rounding each, of `end` or of the clock, and a step adds one more.
-      within(text("fast effect ", frequency, " ", rtol, by_state ? " state" : "", called ? " called" : ""),
+      within(text("fast effect ", frequency, " ", rtol, by_state ? " state" : "",
+                  called ? " called" : ""),
              method, worst(firing_times(results.events), scene.crossings()),
              by_state ? 1e-9 : 200.0 * eps * end);
       CHECK(results.context.discrete_state()[0] == static_cast<double>(scene.crossings().size()));

@@ -28,7 +28,9 @@ TEST_CASE("looks show a parabola, of any size", "[early_looks]") {
   const double scale = GENERATE(1e-200, 1.0, -1e200);
   CHECK(at([=](double s) { return scale * s; }).show());
   CHECK(at([=](double s) { return scale * s * s; }).show());
-  CHECK(at([=](double s) { return scale * (s - s * s); }).show());  // by four ranges at its first slope
+  CHECK(at([=](double s) {
+          return scale * (s - s * s);
+        }).show());  // by four ranges at its first slope
   CHECK(at([=](double s) { return scale * std::exp(s); }).show());
 }
 
@@ -51,7 +53,8 @@ TEST_CASE("looks show a sine while they are within half of its period", "[early_
 /// A sine that turns by far more is random where it is looked at. The values of two looks are then within
 /// a sixteenth of the range of a parabola in about (1/8)^2 of the cases, and the first slope within its
 /// bound in an eighth of these.
-TEST_CASE("looks that are too far apart seem to show a sine once in 500 times at most", "[early_looks]") {
+TEST_CASE("looks that are too far apart seem to show a sine once in 500 times at most",
+          "[early_looks]") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> part(0.0, 1.0);
   int seen = 0;

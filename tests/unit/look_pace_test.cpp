@@ -80,6 +80,21 @@ TEST_CASE("a piece that hides something is halved, and grows again where the gua
   CHECK(pace.next(1.0) == 0.5);
 }
 
+TEST_CASE("the longer no guard of the time has crossed, the further apart the looks may be",
+          "[look_pace]") {
+  LookPace pace;
+  REQUIRE(pace.halve(2.0, 0.01));
+  pace.accept(1.0, false, 100.0, true);
+  pace.accept(1.0, true, 108.0, false);
+  CHECK(pace.next(50.0) == 1.0);
+  pace.accept(1.0, true, 112.0, false);
+  CHECK(pace.next(50.0) == 50.0 / 34.0);  // pieces of at most 1.5
+  pace.accept(1.0, false, 116.0, false);
+  CHECK(pace.next(50.0) == 50.0 / 34.0);
+  pace.accept(1.0, true, 1000.0, false);
+  CHECK(pace.next(50.0) == 2.0);
+}
+
 TEST_CASE("a long step after short ones has no more pieces than allowed", "[look_pace]") {
   LookPace pace;
   REQUIRE(pace.halve(1e-9, 1e-12));

@@ -174,7 +174,8 @@ class Departure : public FirstTime {
 
   /// The time of the last look, from that of the first: a little beyond a move by the tolerance.
   double furthest_look(const GuardGroup& group, double d) const {
-    return std::min(longest_, std::max(thresholds::furthest_look * time_of_states(group), lift_time(group, d)));
+    return std::min(
+        longest_, std::max(thresholds::furthest_look * time_of_states(group), lift_time(group, d)));
   }
 
   /// Whether a guard moves as much as the states do.

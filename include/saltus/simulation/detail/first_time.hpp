@@ -103,7 +103,8 @@ class FirstTime : public FlowProbe {
     TimeProbe& probe = probes_[group_of(slot)];
     if (group.follows_time == FollowsTime::perhaps && probe.is_due()) {
       constexpr std::size_t last = EarlyLooks::parts.size() - 1;
-      probe.found = value(looks_[0][last], EarlyLooks::parts[last], Along::time, d, slot) != g0(slot);
+      probe.found =
+          value(looks_[0][last], EarlyLooks::parts[last], Along::time, d, slot) != g0(slot);
     }
     return probe.follow(group.follows_time);
   }
@@ -116,8 +117,8 @@ class FirstTime : public FlowProbe {
     for (int k = 0; k < thresholds::shorter_times; ++k, shorter /= thresholds::look_growth) {
       if (!(shorter >= resolution() && shorter > 0.0)) return d;
       const EarlyLooks looks = looks_within(looks_[k % 2], along, shorter, slot);
-      const bool before = std::exchange(
-          shown, looks.show() && (along == Along::line || looks.go_one_way()));
+      const bool before =
+          std::exchange(shown, looks.show() && (along == Along::line || looks.go_one_way()));
       if (before && shown) return thresholds::look_growth * shorter;
     }
     return d;

@@ -37,12 +37,12 @@ enum class Phase : signed char {
 /// How a guard was declared.
 struct GuardTraits {
   Direction direction = Direction::crosses_zero;
-  bool monitor = false;  ///< located and logged, stops nothing
-  bool jumps = false;    ///< takes only two values: located by bisection
-  bool stepped = false;  ///< may be constant while the state varies
+  bool monitor = false;                        ///< located and logged, stops nothing
+  bool jumps = false;                          ///< takes only two values: located by bisection
+  bool stepped = false;                        ///< may be constant while the state varies
   FollowsTime follows_time = FollowsTime::no;  ///< yes also for a guard that turns by a state
-  int group = -1;  ///< index in the plan's list of guards
-  int entry = 0;   ///< index in that group
+  int group = -1;                              ///< index in the plan's list of guards
+  int entry = 0;                               ///< index in that group
 };
 
 /// The record of one guard. GuardSet is its only writer.

@@ -54,6 +54,10 @@ class LookPace {
     constexpr double less = 1.0 - 1e-9;  // a piece that a rounding made longer is not divided
     return rest * less <= piece_ ? rest : rest / std::ceil(rest / piece_ * less);
   }
+  /// The part of a piece after which the next look inside of it is. It differs from piece to piece without a
+  /// pattern: looks at one distance, or at two in turn, may have the period of the guard, and would show
+  /// nothing of it from then on.
+  double part() const { return 1.0 - thresholds::uneven_part * place_; }
   /// A piece of this length [s] hides something: whether it may be halved. No piece is shorter than
   /// `least` [s].
   bool halve(double length, double least) {
@@ -63,7 +67,17 @@ class LookPace {
   }
   /// A piece of this length [s] hid nothing.
   void accept(double length, bool slow) {
+    place_ += thresholds::golden_ratio - 1.0;
+    place_ -= std::floor(place_);
     if (slow && piece_ < all) piece_ = std::max(piece_, 2.0 * length);
+  }
+  /// The same, up to `time`, where a guard follows the time. Such a guard may be slow for a while, as a sine of
+  /// which the amplitude comes and goes: the longer no guard has crossed zero, the further apart the looks
+  /// may be. `crosses`: whether one does in this piece.
+  void accept(double length, bool slow, double time, bool crosses) {
+    if (crosses) crossed_at_ = time, crossed_in_ = std::max(length, 0.5 * crossed_in_);
+    const double limit = std::max(crossed_in_, thresholds::slow_time * (time - crossed_at_));
+    accept(std::min(length, 0.5 * limit), slow);
   }
   /// Whether a step of this length [s] may pass without a look inside, where a guard follows the time.
   /// A method chooses its steps for the states, so they say nothing of such a guard: only the looks in
@@ -89,9 +103,12 @@ class LookPace {
 
  private:
   static constexpr double all = std::numeric_limits<double>::infinity();
-  double piece_ = all;   // [s]
-  double widest_ = 0.0;  // [s] between the looks of a step
-  double seen_ = 0.0;    // [s] length of the last step that was looked into
+  double piece_ = all;  // [s]
+  double crossed_at_ = -all,
+         crossed_in_ = 0.0;  // [s] the last piece with a crossing: its end, its length
+  double place_ = 0.0;       // in [0, 1): multiples of the golden ratio
+  double widest_ = 0.0;      // [s] between the looks of a step
+  double seen_ = 0.0;        // [s] length of the last step that was looked into
 };
 
 /// Whether a guard counts for the distance of the looks. A guard that jumps, or whose values are

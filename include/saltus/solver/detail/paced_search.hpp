@@ -102,7 +102,7 @@ class PacedSearch : protected TimedSearch {
     copy_values(high_, at_end_);
     if (!pace_.is_finer_than(to - from) && pace_.halve(to - from, least_)) from = back_from(from);
     while (from < to) {
-      const double next = std::min(to, from + pace_.next(to - from));
+      const double next = next_look(from, to);
       if (next == to)
         copy_values(at_end_, high_);
       else
@@ -119,6 +119,12 @@ class PacedSearch : protected TimedSearch {
     return false;
   }
 
+  /// Where the next look is, in a piece that may be divided.
+  double next_look(double from, double to) const {
+    const double piece = pace_.next(to - from);
+    return piece >= to - from ? to : from + pace_.part() * piece;
+  }
+
   /// A piece that is not halved: the looks grow apart after it where they may.
   void accept(double from, double to, bool hidden) {
     if (!has_four_looks()) return;
@@ -127,6 +133,8 @@ class PacedSearch : protected TimedSearch {
     if (looks.near) judge_.note_noise(looks);
     if (hidden)
       judge_.note_in_vain(looks);
+    else if (follow_time())
+      pace_.accept(to - from, judge_.is_slow(looks), t0_ + to, judge_.crosses(looks));
     else
       pace_.accept(to - from, judge_.is_slow(looks));
   }
@@ -156,7 +164,7 @@ class PacedSearch : protected TimedSearch {
       earlier_at_ = from + piece;
       look(earlier_at_, nullptr, interpolate, earlier_);
       if (asks()) ask(earlier_at_, earlier_, even_, interpolate);
-      const double third = from + thresholds::uneven * piece, last = from + 3.0 * piece;
+      const double third = from + thresholds::golden_ratio * piece, last = from + 3.0 * piece;
       look(third, nullptr, interpolate, middle_);
       look(last, nullptr, interpolate, high_);
       const bool hidden = hides_from_begin(third, last) ||
@@ -184,7 +192,7 @@ class PacedSearch : protected TimedSearch {
   /// sine once in some thirty times.
   template <class Interpolate>
   bool hides_in_time(double from, double third, const Interpolate& interpolate) {
-    const double at = from + (2.0 - thresholds::uneven) * (earlier_at_ - from);
+    const double at = from + (2.0 - thresholds::golden_ratio) * (earlier_at_ - from);
     look(at, nullptr, interpolate, at_end_);
     const FourLooks looks{oldest_.data(),
                           at_end_.data(),

@@ -77,6 +77,10 @@ class PieceJudge {
   bool is_slow(const FourLooks& looks) const {
     return !any(looks, [](std::size_t, const LookVariation& each) { return !each.is_slow(); });
   }
+  /// Whether some guard crosses zero between the last two looks.
+  bool crosses(const FourLooks& looks) const {
+    return any(looks, [](std::size_t, const LookVariation& each) { return each.least == 0.0; });
+  }
   /// The shortest piece hides something: notes which guards do.
   void note_in_vain(const FourLooks& looks) {
     for (const std::size_t k : located_->slots)

@@ -124,7 +124,13 @@ inline constexpr double seen_growth = 2.0;
 inline constexpr double times_apart = 1.0 / 64.0;
 /// [pieces] The second of the three looks that begin a run: the golden ratio, which is far from
 /// each ratio of small numbers. tests/laws/fast_guards_test.cpp
-inline constexpr double uneven = 1.6180339887498949;
+inline constexpr double golden_ratio = 1.6180339887498949;
+/// [of the time since a guard crossed] How far apart looks may be where a guard follows the time: four of them
+/// are in a time half as long, in which it may be fast again. tests/laws/modulated_guards_test.cpp
+inline constexpr double slow_time = 1.0 / 8.0;
+/// [of a piece] How much shorter pieces are at most, where there is more than one: it costs an eighth of the looks.
+/// tests/laws/modulated_guards_test.cpp (as small)
+inline constexpr double uneven_part = 0.25;
 /// [of a piece] How far two looks are apart whose difference is a derivative: its error, this part
 /// of the second derivative, and its rounding, eps by this part, are both far below its size.
 /// tests/laws/fast_guards_test.cpp
