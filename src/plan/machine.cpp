@@ -28,6 +28,7 @@ Machine::Machine(std::shared_ptr<const Plan> plan)
     : Memory(std::move(plan)),
       arguments_(*this),
       calls_(*plan_, arguments_.views()),
+      looked_(calls_.guard_needs.size(), 0),
       seen_(*this),
       resting_(*plan_) {
   if (calls_.odes.size() == 1 && calls_.derivatives.empty() && plan_->nx == calls_.odes[0].size)
@@ -161,10 +162,24 @@ void Machine::guards_at(double t, const double* state, double* g) {
   for (const int i : seen_.looked()) copy_reads(i, seen, g);
 }
 
+/// What these groups need: a signal that several of them need is computed once.
+Machine::Seen Machine::run_needs_of(std::span<const int> groups, double t, const double* state) {
+  const auto is_whole = [this](int i) { return calls_.guard_cones[i].whole; };
+  if (groups.size() == calls_.guards.size() || std::ranges::any_of(groups, is_whole))
+    return run(calls_.guard_needs, t, state);
+  const Seen seen = arguments_.of(state);
+  ++look_;
+  for (const int i : groups) {
+    for (const int call : calls_.guard_cones[i].calls)
+      if (std::exchange(looked_[call], look_) != look_) run(nth(calls_.guard_needs, call), seen, t);
+  }
+  return seen;
+}
+
 void Machine::guards_of(std::span<const int> groups, double t, const double* state, double* g) {
   if (lone_guard_ != nullptr || carrier_ != nullptr) return guards(t, state, g);
   ++guard_calls;
-  const Seen seen = run(calls_.guard_needs, t, state);
+  const Seen seen = run_needs_of(groups, t, state);
   bool fused = false;
   for (const int i : groups) {
     if (calls_.fused_guards && plan_->walks.guards.fused[i])
