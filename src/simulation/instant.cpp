@@ -166,9 +166,12 @@ bool Instant::follow_controls() {
 
 /// Zero crossings that the commit moved across zero in their direction fire in the next pass.
 void Instant::find_next() {
-  for (const std::size_t k : guards_->active().all) {
+  for (const std::size_t k : guards_->active().crossings()) {
+    if (is_untouched(k)) {
+      guards_->stay(k, present_.g[k]);
+      continue;
+    }
     const GuardGroup& group = plan().guard((*guards_)[k].group);
-    if (!group.is_crossing()) continue;
     const bool holds = holds_.of_guard(k).monitor.holding;
     switch (decide_after_pass(holds, present_.now(k).fired_in_pass, group.queued)) {
       case AfterPass::nothing:
@@ -190,6 +193,12 @@ void Instant::find_next() {
   }
 }
 
+/// Whether nothing is to be decided about a zero crossing: it is on its side, nothing is known of it in
+/// this instant, and no block is at rest. With many guards most are such at each event.
+bool Instant::is_untouched(std::size_t k) const {
+  return (*guards_)[k].stays(present_.g[k]) && !present_.has_facts(k) && !holds_.any();
+}
+
 /// Whether the commit moved a guard, which was at zero beside the root of another one, off zero.
 bool Instant::left_zero_beside_root(std::size_t k) {
   return moves_off_zero(guards_->g[k], present_.g[k], crossings_.uncertainty(k));
@@ -199,8 +208,8 @@ bool Instant::left_zero_beside_root(std::size_t k) {
 void Instant::continue_beside_root(std::size_t k) {
   if (left_zero_beside_root(k)) return;
   const Guard& guard = (*guards_)[k];
-  const Departure::Side flow = flow_.side(plan().guard(guard.group), static_cast<Index>(k),
-                                          std::abs(present_.g[k]), 0);
+  const Departure::Side flow =
+      flow_.side(plan().guard(guard.group), static_cast<Index>(k), std::abs(present_.g[k]), 0);
   const int side = side_beside_root(guard.direction, flow.side);
   if (side != guard.side) guards_->wait(k, side, flow.rounding);
 }
@@ -222,19 +231,26 @@ void Instant::look_at_crossing(std::size_t k) {
 /// side from the flow.
 void Instant::arm(bool at_start) {
   guards_->see_reads(present_.g);
-  for (const std::size_t k : guards_->active().all) {
-    const Guard& guard = (*guards_)[k];
+  for (const std::size_t k : guards_->active().crossings()) {
+    const bool goes_on = !at_start && is_untouched(k);
     if (present_.now(k).turned_beside_root) continue_beside_root(k);
-    guards_->g[k] = present_.g[k];
-    guards_->set_base(k, present_.g[k]);
-    if (!plan().guard(guard.group).is_crossing())
-      relations_.arm(k);
-    else if (holds_.of_guard(k).monitor.holding)
+    guards_->stay(k, present_.g[k]);
+    if (!goes_on && holds_.of_guard(k).monitor.holding)
       contacts_.arm_crossing(k);
-    else
+    else if (!goes_on)
       crossings_.arm(k, at_start);
-    guards_->mark_armed_at(k, present_.now(k).fired && guard.at_zero() ? present_.t : not_armed);
+    mark_armed(k);
   }
+  for (const std::size_t k : guards_->active().relations()) {
+    guards_->stay(k, present_.g[k]);
+    relations_.arm(k);
+    mark_armed(k);
+  }
+}
+
+void Instant::mark_armed(std::size_t k) {
+  const bool waits = present_.has_facts(k) && present_.now(k).fired && (*guards_)[k].at_zero();
+  guards_->mark_armed_at(k, waits ? present_.t : not_armed);
 }
 
 }  // namespace saltus

@@ -113,7 +113,9 @@ class Instant {
   void look_at_crossing(std::size_t k);
   bool left_zero_beside_root(std::size_t k);
   void continue_beside_root(std::size_t k);
+  bool is_untouched(std::size_t k) const;
   void arm(bool at_start);
+  void mark_armed(std::size_t k);
   void select_guards();
   bool follow_controls();
   void look_at_guards();

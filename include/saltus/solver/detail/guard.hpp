@@ -127,6 +127,13 @@ struct Guard : GuardTraits {
     error = 0.0;
   }
 
+  /// Whether it is armed, off zero, and on its side at this value, so that neither a look nor arming
+  /// changes more of its record than its base. Only the value of edge_detection has no side.
+  bool stays(double value) const noexcept {
+    return phase == Phase::armed && error == 0.0 && side * value > 0.0 &&
+           direction != Direction::edge_detection;
+  }
+
   /// The side, if only staying on it matters for this guard; otherwise 0.
   double plain_side() const noexcept {
     return waits() || watched_direction() == Direction::edge_detection ? 0.0 : side;
