@@ -49,6 +49,19 @@ Context with_parameter(const Context& context, const std::string& name, py::hand
   return context.with_parameter(name, to_vector(value, text("parameter '", name, "'")));
 }
 
+/// A name of another type than str is a mistake that Python's own words for it do not explain.
+Context with_parameters(Context context, const py::dict& values) {
+  for (const auto& [name, value] : values) {
+    if (!py::isinstance<py::str>(name))
+      throw py::type_error(
+          text("with_parameters: expected the names of parameters, as in {'gain': 2.0}, "
+               "found the key ",
+               std::string(py::repr(name))));
+    context = with_parameter(context, name.cast<std::string>(), value);
+  }
+  return context;
+}
+
 bool equal(const Context& a, const Context& b) {
   const auto paths = [](const Context& context) {
     std::vector<std::string> all;
@@ -75,10 +88,24 @@ std::string repr(const Context& context) {
   return out + (blocks == 1 ? ")" : text(", ", blocks, " blocks)"));
 }
 
+/// A context is a value: the answer to an assignment is what to write.
+[[noreturn]] void refuse_set(const py::object& self, const std::string& name, const py::object&) {
+  const std::string method = "with_" + name;
+  if (py::hasattr(self, method.c_str()))
+    throw py::attribute_error(text("a context is not changed in place; write context = context.",
+                                   method, name == "parameters" ? "({'k': 2.0})" : "(...)"));
+  std::vector<std::string> known;
+  for (const py::handle each : py::module_::import("builtins").attr("dir")(self))
+    if (auto one = each.cast<std::string>(); !one.starts_with('_')) known.push_back(std::move(one));
+  throw py::attribute_error(
+      text("'Context' object has no attribute '", name, "'", known_names(name, known)));
+}
+
 }  // namespace
 
 void bind_context(py::module_& module) {
   py::class_<Context> context(module, "Context", docs::context);
+  context.def("__setattr__", &refuse_set, py::arg("name"), py::arg("value"));
   context.def_property_readonly("time", &Context::time, "[s]")
       .def_property_readonly(
           "continuous_state", [](const Context& c) { return shown(c.continuous_state()); },
@@ -130,14 +157,7 @@ void bind_context(py::module_& module) {
       .def("with_mode", &Context::with_mode, py::arg("mode"), docs::with_mode)
       .def("with_parameter", &with_parameter, py::arg("name"), py::arg("value"),
            docs::with_parameter)
-      .def(
-          "with_parameters",
-          [](Context c, const py::dict& values) {
-            for (const auto& [name, value] : values)
-              c = with_parameter(c, name.cast<std::string>(), value);
-            return c;
-          },
-          py::arg("values"), docs::with_parameters)
+      .def("with_parameters", &with_parameters, py::arg("values"), docs::with_parameters)
       .def(
           "__getitem__", [](const Context& c, py::handle system) { return c[id_of(system)]; },
           py::arg("system"), docs::subcontext)

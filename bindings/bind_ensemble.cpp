@@ -129,7 +129,7 @@ class Call {
     locked([&] {
       auto copy = std::make_shared<Record>(results);
       copy->cause = nullptr;  // it would refer to the frames through which it passed
-      each_(run, copy, cause_of(results));
+      ask(each_, run, copy, cause_of(results));
     });
   }
 
@@ -138,7 +138,7 @@ class Call {
     tapes_->consider(evaluations(), counted_);
     return locked([&] {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      return !watch_.is_none() && watch_(done).cast<bool>();
+      return !watch_.is_none() && ask(watch_, done).cast<bool>();
     });
   }
 

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "bindings.hpp"
+#include "interpreter.hpp"
 #include "saltus/base/model_errors.hpp"
 
 namespace saltus::python {
@@ -28,18 +29,41 @@ const char* class_of(const ModelError& error) {
   return is(std::type_identity<StaticError>()) ? "StaticError" : "ModelError";
 }
 
+/// An exception of Python gets what a function of the user raised as its `__cause__`; nothing if `cause`
+/// is null or no exception of Python.
+void set_cause(py::handle exception, const std::exception_ptr& cause) {
+  if (!cause) return;
+  try {
+    std::rethrow_exception(cause);
+  } catch (const py::error_already_set& raised) {
+    if (raised.trace()) PyException_SetTraceback(raised.value().ptr(), raised.trace().ptr());
+    PyException_SetCause(exception.ptr(), raised.value().inc_ref().ptr());
+  } catch (const std::exception&) {  // of C++: the message has its words
+  }
+}
+
 }  // namespace
+
+py::object as_python(const SimulationError& error) {
+  return ask(error_class("SimulationError"), error.what(), error.time(), error.block());
+}
+
+py::object as_python(const ModelError& error, const char* name) {
+  py::object python = ask(error_class(name), error.what());
+  set_cause(python, error.cause());
+  return python;
+}
 
 void bind_errors(py::module_& module) {
   py::register_local_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const SimulationError& error) {
-      const py::object python =
-          error_class("SimulationError")(error.what(), error.time(), error.block());
+      const py::object python = as_python(error);
       py::set_error(py::type::of(python), python);
     } catch (const ModelError& error) {
-      py::set_error(error_class(class_of(error)), error.what());
+      const py::object python = as_python(error, class_of(error));
+      py::set_error(py::type::of(python), python);
     } catch (const Error& error) {
       py::set_error(error_class("Error"), error.what());
     }

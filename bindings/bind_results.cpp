@@ -201,11 +201,11 @@ py::object cause_of(const Results& results) {
     if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
     return error.value();
   } catch (const SimulationError& error) {
-    return error_class("SimulationError")(error.what(), error.time(), error.block());
+    return as_python(error);
   } catch (const ModelError& error) {
-    return error_class("ModelError")(error.what());
+    return as_python(error, "ModelError");
   } catch (const std::exception& error) {
-    return error_class("Error")(error.what());
+    return ask(error_class("Error"), error.what());
   }
 }
 

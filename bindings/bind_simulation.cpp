@@ -120,7 +120,7 @@ class PythonSimulator {
     const auto now = std::chrono::steady_clock::now();
     if (now - reported_ < std::chrono::milliseconds(100)) return;
     reported_ = now;
-    locked([&] { progress_(simulator_.time(), simulator_.results().statistics.events); });
+    locked([&] { ask(progress_, simulator_.time(), simulator_.results().statistics.events); });
   }
 
   /// Ctrl-C ends the run well; any other exception of a signal handler counts as an exception of

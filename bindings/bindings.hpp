@@ -4,9 +4,13 @@
 
 #include <pybind11/pybind11.h>
 
+#include <exception>
+
 namespace saltus {
 class Context;
-}
+class ModelError;
+class SimulationError;
+}  // namespace saltus
 
 namespace saltus::python {
 
@@ -39,5 +43,8 @@ void bind_tape(py::module_& module);
 
 /// An exception class of python/saltus/errors.py.
 py::object error_class(const char* name);
+/// The exception of Python for an error of a run, and for one of a model: of this class, with its cause.
+py::object as_python(const SimulationError& error);
+py::object as_python(const ModelError& error, const char* name);
 
 }  // namespace saltus::python

@@ -31,6 +31,21 @@ decltype(auto) until_shutdown(Work work) {
 #endif
 }
 
+/// Calls a function of Python, which may run any code and wait for the lock. The unwinding of a thread that
+/// the interpreter ends (see until_shutdown) meets no destructor of a Python object here. In a call by
+/// pybind11, `function(...)`, it meets that of the arguments.
+inline py::object ask_with(py::handle function, const py::tuple& arguments,
+                           const py::dict& keywords) {
+  PyObject* const result = until_shutdown(
+      [&] { return PyObject_Call(function.ptr(), arguments.ptr(), keywords.ptr()); });
+  if (result == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::object>(result);
+}
+template <class... Arguments>
+py::object ask(py::handle function, Arguments&&... arguments) {
+  return ask_with(function, py::make_tuple(std::forward<Arguments>(arguments)...), py::dict());
+}
+
 /// Releases the lock as long as it lives. A run inside a callback of another run releases it again.
 class Unlocked {
  public:

@@ -1,4 +1,5 @@
 #include "numbers.hpp"
+#include "interpreter.hpp"
 
 #include <functional>
 #include <numeric>
@@ -25,7 +26,7 @@ bool is_plain_array(py::handle object) {
 /// Whether a masked array has an entry that its mask hides: that entry is no number.
 bool has_masked_entries(py::handle object) {
   if (!py::isinstance<py::array>(object) || is_plain_array(object)) return false;
-  return py::module_::import("numpy").attr("ma").attr("is_masked")(object).cast<bool>();
+  return ask(py::module_::import("numpy").attr("ma").attr("is_masked"), object).cast<bool>();
 }
 
 /// The array of doubles that NumPy makes of an object; none, and no Python error, of what is not
@@ -47,7 +48,7 @@ std::string described(py::handle object) {
   if (has_masked_entries(object)) return "an array with masked entries";
   if (py::isinstance<py::array>(object))
     return text("an array of ", std::string(py::str(object.attr("dtype"))));
-  const auto shown = py::module_::import("reprlib").attr("repr")(object);
+  const auto shown = ask(py::module_::import("reprlib").attr("repr"), object);
   return text(std::string(py::str(shown)), " (", Py_TYPE(object.ptr())->tp_name, ")");
 }
 
@@ -92,7 +93,7 @@ Array numbers_in(py::handle object) {
   if (entry_that(is_text_or_none, object)) return py::reinterpret_steal<Array>(nullptr);
   const Array array = real_array(object);
   if (array || !py::hasattr(object, "toarray")) return array;
-  return real_array(object.attr("toarray")());  // a sparse matrix of SciPy
+  return real_array(ask(object.attr("toarray")));  // a sparse matrix of SciPy
 }
 
 }  // namespace

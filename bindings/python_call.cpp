@@ -1,8 +1,10 @@
 // Calls a Python function, with objects that are made once and reused.
 #include <bit>
 
+#include "interpreter.hpp"
 #include "python_leaf.hpp"
 #include "saltus/base/list.hpp"
+#include "saltus/model/detail/shape_guess.hpp"
 
 namespace saltus::python {
 
@@ -178,9 +180,11 @@ class ProgramEnd final : public py::error_already_set, public Interruption {};
 }  // namespace
 
 py::object PythonLeaf::vectorcall(const Function& function, const Frame& frame) const {
-  PyObject* result = PyObject_Vectorcall(
-      function.callable.ptr(), const_cast<PyObject* const*>(frame.arguments.data()) + 1,
-      frame.positional | PY_VECTORCALL_ARGUMENTS_OFFSET, frame.keywords.ptr());
+  PyObject* result = until_shutdown([&] {
+    return PyObject_Vectorcall(
+        function.callable.ptr(), const_cast<PyObject* const*>(frame.arguments.data()) + 1,
+        frame.positional | PY_VECTORCALL_ARGUMENTS_OFFSET, frame.keywords.ptr());
+  });
   if (result == nullptr) throw_raised(function, frame);
   return py::reinterpret_steal<py::object>(result);
 }
@@ -216,13 +220,12 @@ void PythonLeaf::throw_raised(const Function& function, const Frame& frame) cons
   py::error_already_set error;
   if (error.matches(PyExc_TypeError) && !error.trace()) {
     const py::object keywords = frame.keywords ? frame.keywords : py::tuple();
-    py::module_::import("saltus.calling")
-        .attr("refuse_signature")(whose(function), function.callable, positional(function),
-                                  keywords, error.value());
+    ask(py::module_::import("saltus.calling").attr("refuse_signature"), whose(function),
+        function.callable, positional(function), keywords, error.value());
   }
   if (error.matches(PyExc_ValueError)) {
-    py::module_::import("saltus.calling")
-        .attr("refuse_writing")(whose(function), error.value(), error.trace());
+    ask(py::module_::import("saltus.calling").attr("refuse_writing"), whose(function),
+        error.value(), error.trace());
   }
   throw error;
 }
@@ -244,7 +247,23 @@ void PythonLeaf::fill(int k, const At& at, VectorRef out) const {
     require_matrix(result, expected_of(function, out.size()), text(whose(function), " returned"));
   if (read_plain_numbers(result, out)) return;
   if (is_guard(function.role) && read_truths(result, out)) return;
-  read_any_numbers(result, out, whose(function));
+  try {
+    read_any_numbers(result, out, whose(function));
+  } catch (ModelError& error) {
+    if (function.role == Role::output) explain_result(k, at, error);
+    throw;
+  }
+}
+
+/// The result of an output does not fit: its shape may have been a guess.
+void PythonLeaf::explain_result(int k, const At& at, ModelError& error) const {
+  std::vector<Shape> shapes;
+  for (int i = 0; i < count_of(declarations().inputs); ++i) {
+    const Index size = at.u[i].size(), columns = at.u.columns(i);
+    shapes.push_back(number_input(i, size, columns) ? Shape::scalar() : Shape{size, true, columns});
+  }
+  const OutputDeclaration& output = declarations().outputs[this->function(k).index];
+  detail::explain_by_guess(error, [&] { output.shape_rule(shapes); });
 }
 
 bool PythonLeaf::gives_matrix(const Function& function) const {

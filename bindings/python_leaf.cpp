@@ -34,7 +34,7 @@ int PythonLeaf::add(py::handle self, py::object callable, Function function) {
         text(whose(function), ": expected a function, found ", std::string(py::repr(callable))));
   } else {
     function.in_place =
-        py::module_::import("saltus._in_place").attr("fills_out")(callable).cast<bool>();
+        ask(py::module_::import("saltus._in_place").attr("fills_out"), callable).cast<bool>();
     function.method = unbind(callable, self);
   }
   function.callable = std::move(callable);

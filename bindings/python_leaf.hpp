@@ -136,6 +136,8 @@ class PythonLeaf final : public LeafSystem {
   py::object call_with(int k, const std::vector<Shape>& shapes, const Eigen::VectorXd& u) const;
   std::optional<py::array> sample(int k, std::vector<Shape> shapes,
                                   std::span<const Index> widths) const;
+  [[noreturn]] void throw_guess(const Function& function, const std::exception_ptr& raised) const;
+  void explain_result(int k, const At& at, ModelError& error) const;
   Shape shape_of(int k, std::span<const Shape> inputs) const;
   bool means_discrete(const Function& function, bool has_x, bool has_z) const;
   void write(int k, py::handle result, Next& next) const;

@@ -4,6 +4,7 @@
 
 #include "interpreter.hpp"
 #include "python_leaf.hpp"
+#include "saltus/model/detail/shape_guess.hpp"
 
 namespace saltus::python {
 
@@ -14,17 +15,19 @@ int PythonLeaf::add_output(std::string port, int function, std::optional<Shape> 
   const InputList& inputs = this->function(function).inputs;
   require_shape(function, shape);
   if (shape) functions_[function].columns = shape->columns;
-  const int output = declare_output_port(
-      {.name = std::move(port),
-       .calc = vector_function(function),
-       .shape = shape,
-       .shape_rule =
-           [this, function](std::span<const Shape> shapes) { return shape_of(function, shapes); },
-       .reads = reads,
-       .inputs = inputs,
-       .boolean = boolean.value_or(false),
-       .derivatives = std::move(derivatives),
-       .sampler = std::move(sampler)});
+  const int output =
+      declare_output_port({.name = std::move(port),
+                           .calc = vector_function(function),
+                           .shape = shape,
+                           .shape_rule =
+                               [this, function, shape](std::span<const Shape> shapes) {
+                                 return shape ? *shape : shape_of(function, shapes);
+                               },
+                           .reads = reads,
+                           .inputs = inputs,
+                           .boolean = boolean.value_or(false),
+                           .derivatives = std::move(derivatives),
+                           .sampler = std::move(sampler)});
   const bool callable = !this->function(function).compiled && !this->function(function).in_place;
   if (callable && (!shape || !boolean))
     unfinished_.push_back({output, function, shape.has_value(), boolean.has_value()});
@@ -98,7 +101,10 @@ py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes,
 /// an input of unknown width may be indexed.
 std::optional<py::array> PythonLeaf::sample(int k, std::vector<Shape> shapes,
                                             std::span<const Index> widths) const {
+  std::exception_ptr first;  // what the first call raised
   const py::object errstate = py::module_::import("numpy").attr("errstate");
+  py::dict ignored;
+  ignored["all"] = "ignore";
   std::vector<Shape> tried = shapes;
   for (const Index width : widths) {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -106,24 +112,46 @@ std::optional<py::array> PythonLeaf::sample(int k, std::vector<Shape> shapes,
     }
     for (const Probe probe : {Probe::zeros, Probe::ones, Probe::identities}) {
       try {
-        const py::object quiet = errstate(py::arg("all") = "ignore");  // it is entered once only
-        quiet.attr("__enter__")();
+        const py::object quiet =
+            ask_with(errstate, py::tuple(), ignored);  // it is entered once only
+        ask(quiet.attr("__enter__"));
         py::object result;
         try {
           result = call_with(k, tried, values_of(tried, probe));
         } catch (...) {
-          quiet.attr("__exit__")(py::none(), py::none(), py::none());
+          ask(quiet.attr("__exit__"), py::none(), py::none(), py::none());
           throw;
         }
-        quiet.attr("__exit__")(py::none(), py::none(), py::none());
+        ask(quiet.attr("__exit__"), py::none(), py::none(), py::none());
         if (py::array array = py::array::ensure(result); array && !result.is_none()) return array;
         PyErr_Clear();
       } catch (py::error_already_set& error) {
         if (!error.matches(PyExc_Exception)) throw;  // Ctrl-C
+        if (!first) first = std::current_exception();
       }
     }
   }
+  if (first && detail::RefuseGuesses::active()) throw_guess(function(k), first);
   return std::nullopt;
+}
+
+/// Says that the function was called for its shape, and what it raised.
+void PythonLeaf::throw_guess(const Function& function, const std::exception_ptr& raised) const {
+  std::string what;
+  try {
+    std::rethrow_exception(raised);
+  } catch (const py::error_already_set& error) {
+    what = text(std::string(py::str(error.type().attr("__name__"))), ": ",
+                std::string(py::str(error.value())));
+  }
+  throw detail::ShapeGuess(
+      text(whose(function),
+           " was called with zeros and with ones in place of its inputs, to find its "
+           "shape, and raised each time, at first ",
+           what,
+           "; so it counts as one number. Let it return its shape there too, or declare it with "
+           "shape="),
+      raised);
 }
 
 Shape PythonLeaf::shape_of(int k, std::span<const Shape> inputs) const {

@@ -71,6 +71,13 @@ int refuse_set(PyObject*, PyObject*, void* remedy) {
   return -1;
 }
 
+/// What is right for `state[0]` and `for x in state`.
+[[noreturn]] void refuse_array() {
+  throw py::type_error(
+      "the state of a callback is no array: its numbers are state.continuous_state, "
+      "state.discrete_state and state.mode, as in x, v = state.continuous_state");
+}
+
 template <auto Member>
 PyGetSetDef member(const char* name, const char* doc, const char* remedy) {
   return {name, &get<Member>, &refuse_set, doc, const_cast<char*>(remedy)};
@@ -103,6 +110,8 @@ void bind_callback_state(py::module_& module) {
       .def("with_discrete_state", &State::with_discrete_state, py::arg("discrete_state"),
            "Another discrete state, of the declared shape.")
       .def("with_mode", &State::with_mode, py::arg("mode"), "Another mode.")
+      .def("__getitem__", [](const State&, const py::object&) { refuse_array(); })
+      .def("__iter__", [](const State&) { refuse_array(); })
       .def("__repr__", [](const State& s) {
         return py::str("State(continuous_state={}, discrete_state={}, mode={})")
             .format(s.x, s.z, s.mode);

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "bind_traces.hpp"
+#include "interpreter.hpp"
 
 namespace saltus::python {
 
@@ -16,7 +17,7 @@ std::shared_ptr<const Declarations> TracePass::with_shapes(const Plan& plan, con
   if (!number) return nullptr;
   BlockTraces& block = traces_->blocks()[*number];
   block.take_shapes(plan, leaf);
-  traces_->set(*number, trace_block_(*number, facts_of(block)).cast<std::vector<Trace>>());
+  traces_->set(*number, ask(trace_block_, *number, facts_of(block)).cast<std::vector<Trace>>());
   return declarations_of(*number);
 }
 

@@ -21,7 +21,7 @@ STUB = Path(__file__).parents[1] / "python" / "saltus" / "_core.pyi"
 HEADER = """\
 # The compiled module as the package uses it. Import saltus, not this. Made by ./dev stubs.
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, ClassVar, overload
+from typing import Any, ClassVar, NoReturn, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,7 +32,7 @@ from saltus.system import System as AnySystem
 NUMBERS = "NDArray[np.float64]"
 DROPPED = re.compile(r"__(copy|deepcopy|getstate|setstate|eq|ne|hash|repr|str|index|int|all)__")
 
-REFUSED = {"State.__getitem__", "State.__iter__", "Context.__setattr__"}
+REFUSED = {"Context.__setattr__"}
 """methods that only refuse what a type checker refuses without them"""
 
 REFINED: dict[str, dict[str, str]] = {
@@ -45,6 +45,8 @@ REFINED: dict[str, dict[str, str]] = {
     "Context.parameters": {"return": f"dict[str, float | {NUMBERS}]"},
     "Context.to_dict": {"return": "dict[str, Any]"},
     "Context.to_json": {"return": "str"},
+    "State.__getitem__": {"arg0": "NoReturn", "return": "NoReturn"},  # no key is of this type
+    "State.__iter__": {"return": "NoReturn"},
     "State.with_continuous_state": {"continuous_state": "ArrayLike"},
     "State.with_discrete_state": {"discrete_state": "ArrayLike"},
     "Results.at": {"return": f"tuple[{NUMBERS}, dict[str, {NUMBERS}]]"},

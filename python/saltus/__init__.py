@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 from saltus import _starting  # isort: skip  # before the imports that Ctrl-C may interrupt
 from saltus import library, simulation
-from saltus import _misuse as _misuse
 from saltus._core import Context, State, __version__
 from saltus._core import known_names as _known_names
 from saltus.callbacks import ExplainedCallback, Explanation

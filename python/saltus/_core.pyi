@@ -1,6 +1,6 @@
 # The compiled module as the package uses it. Import saltus, not this. Made by ./dev stubs.
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, ClassVar, overload
+from typing import Any, ClassVar, NoReturn, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -430,6 +430,8 @@ class State:
     (1, array([3.]))
     """
 
+    def __getitem__(self, arg0: NoReturn, /) -> NoReturn: ...
+    def __iter__(self) -> NoReturn: ...
     def with_continuous_state(self, continuous_state: ArrayLike) -> State:
         """
         Another continuous state, of the declared shape.

@@ -2,7 +2,6 @@
 #include "places.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "saltus/base/error.hpp"
 #include "saltus/base/list.hpp"
@@ -15,17 +14,7 @@ bool AnalysisPlace::same(const AnalysisPlace& other) const {
   return entry->kind == other.entry->kind && entry->first == other.entry->first;
 }
 
-std::pair<std::string, std::optional<Index>> split_entry(const std::string& name) {
-  const auto open = name.rfind('[');
-  if (open == std::string::npos || !name.ends_with(']')) return {name, {}};
-  Index index = 0;
-  const char* last = name.data() + name.size() - 1;
-  const auto [end, error] = std::from_chars(name.data() + open + 1, last, index);
-  if (error != std::errc() || end != last || index < 0) return {name, {}};
-  return {name.substr(0, open), index};
-}
-
-int open_port(const System& system, const std::string& name) {
+int open_port(const System& system, std::string_view name) {
   const std::vector<std::string> names = system.input_names();
   const auto found = std::ranges::find(names, name);
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
@@ -53,7 +42,7 @@ ContextEntry number_in(const std::string& where, const Context& context, const s
 
 AnalysisPlace place_of(const std::string& where, const System& system, const Context& context,
                        const std::string& name) {
-  const auto [base, index] = split_entry(name);
+  const auto [base, index] = split_index(name);
   if (const int port = open_port(system, name); port >= 0) return {name, {}, port, {}};
   if (const int port = open_port(system, base); port >= 0) return {name, {}, port, index};
   ContextEntry entry;

@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "saltus/model/context_entry.hpp"
@@ -27,10 +26,8 @@ struct AnalysisPlace {
   bool same(const AnalysisPlace& other) const;
 };
 
-/// "u[1]" as "u" and 1, "u" as "u" and none.
-std::pair<std::string, std::optional<Index>> split_entry(const std::string& name);
 /// The number of an open input with this name, or -1.
-int open_port(const System& system, const std::string& name);
+int open_port(const System& system, std::string_view name);
 
 /// The place of a name. Throws ModelError for an unknown one, and for one of several numbers; it
 /// names the nearest.

@@ -51,8 +51,8 @@ TrimSetting TrimSetting::put(const std::vector<AnalysisPlace>& places,
     } else if (!place.of_vector) {
       input_called(next.inputs, place.name) = LinearInput(place.name, values[k]);
     } else {
-      (*input_called(next.inputs, split_entry(place.name).first).value)[*place.of_vector] =
-          values[k];
+      (*input_called(next.inputs, std::string(split_index(place.name).first))
+            .value)[*place.of_vector] = values[k];
     }
   }
   return next;

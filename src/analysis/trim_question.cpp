@@ -165,7 +165,7 @@ class Asking {
 
   /// The start of an entry of an open input, which has to be held as a vector.
   double entry_of_input(const AnalysisPlace& place) const {
-    const std::string port = split_entry(place.name).first;
+    const std::string_view port = split_index(place.name).first;
     const auto held = std::ranges::find(setting_.inputs, port, &LinearInput::name);
     if (held == setting_.inputs.end() || *place.of_vector >= held->value->size())
       throw ModelError(text(where_, ": free: '", place.name,

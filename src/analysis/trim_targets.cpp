@@ -20,7 +20,7 @@ void require_finite_target(const std::string& where, const std::string& name, do
 std::string recorded_name(const System& system, const WantedOutput& wanted) {
   const std::vector<std::string> names = system.output_names();
   const bool whole = !wanted.port.system && std::ranges::find(names, wanted.name) != names.end();
-  return whole ? wanted.name : split_entry(wanted.name).first;
+  return whole ? wanted.name : std::string(split_index(wanted.name).first);
 }
 
 /// The rows of a linearisation that a name means.

@@ -31,6 +31,11 @@ std::string quoted_list(const std::vector<std::string>& names) {
   return names.size() > 12 ? out + ", ..." : out;
 }
 
+void ModelError::explain(const std::string& more, std::exception_ptr cause) {
+  longer_ = std::make_shared<const std::string>(what() + more);
+  cause_ = std::move(cause);
+}
+
 std::string known_names(std::string_view wrong, const std::vector<std::string>& names) {
   if (names.empty()) return "; there are none";
   const auto nearest = std::ranges::min_element(

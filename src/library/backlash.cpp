@@ -17,6 +17,21 @@ double rests_at(double u, double side, double width) {
   return u - side * (0.5 * width - inside);
 }
 
+/// [of the play] How far u may be back behind its contact: far more than the rounding and the error of
+/// a run move it, and little beside the play.
+constexpr double returned = 1e-3;
+
+[[noreturn]] void throw_wrong_rate(const std::string& block, const At& at) {
+  const char* way = at.z[1] > 0.0 ? "upward" : "downward";
+  throw SimulationError(text("t = ", at.time, " s: block '", block, "': u drives y ", way,
+                             ", and came back to where the contact began, u = ", at.u(0),
+                             ", but in_rate did not change its sign: it is ", at.u(1),
+                             " now. Expected: in_rate is the rate of in, du/dt, and in does not "
+                             "jump. Connect the speed "
+                             "of the same shaft, as from the integrator of the position"),
+                        at.time, block);
+}
+
 }  // namespace
 
 /// z = (y while it rests; 1 while u drives y upward, -1 downward, 0 while y rests).
@@ -30,6 +45,7 @@ Backlash::Backlash(std::string name, double width, const Options& options)
   declare_contact("drive_up", 1.0, play);
   declare_contact("drive_down", -1.0, play);
   declare_turn(play);
+  declare_return(play);
   declare_outputs(play);
 }
 
@@ -66,6 +82,22 @@ void Backlash::declare_turn(ParameterIndex width) {
                                const auto rate = at.z(1) * at.u(1, 0);
                                return at.choose(rate == 0.0, 1.0, rate);
                              }});
+}
+
+/// In contact y never goes back behind the place where the contact began, z(0), unless u has turned
+/// and the rate has not shown it.
+void Backlash::declare_return(ParameterIndex width) {
+  declare_zero_crossing(
+      {.name = "return_without_turn",
+       .reset_map = [block = name()](const At& at, Next&) { throw_wrong_rate(block, at); },
+       .direction = Direction::positive_then_non_positive,
+       .zeno_tolerance = 0.0,
+       .inputs = std::vector{0, 1},
+       .formula =
+           [=](const auto& at, Index) {
+             const auto beyond = at.z(1) * (at.u(0, 0) - at.z(0)) - 0.5 * at.p(width, 0);
+             return at.choose(at.z(1) == 0.0, 1.0, beyond + returned * at.p(width, 0));
+           }});
 }
 
 void Backlash::declare_outputs(ParameterIndex width) {

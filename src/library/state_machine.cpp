@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "saltus/library/detail/state_machine_names.hpp"
 #include "saltus/library/detail/state_machine_step.hpp"
@@ -98,6 +99,7 @@ void StateMachine::declare_start(const Action& entry) {
 void StateMachine::declare_transitions(const Options& options) {
   const std::vector<std::string> events = detail::events_of(options.transitions);
   std::vector<std::vector<detail::StateMachineDue>> before(states_.size());
+  std::set<int> returns;  // the states with a transition to themselves so far
   for (const std::size_t k : by_priority(options.transitions)) {
     const Transition& each = options.transitions[k];
     const std::string where = text("transition '", events[k], "'");
@@ -111,8 +113,10 @@ void StateMachine::declare_transitions(const Options& options) {
         .trigger = each.trigger,
         .leave = {action_of(options.exit, each.source), each.action},
         .entry = action_of(options.entry, each.target),
-        .before = nth(before, source)};
+        .before = nth(before, source),
+        .behind_return = returns.contains(source)};
     declare_zero_crossing(step.crossing(events[k]));
+    if (target == source) returns.insert(source);
     if (!each.trigger && target != source) nth(before, source).push_back(step.due);
   }
 }

@@ -58,10 +58,19 @@ double StateMachineStep::residual(const At& at) const {
   return own < 0.0 ? own - half_jump(now) : own + half_jump(now);
 }
 
+/// The time since the source was entered is 0 then; without that it is `after` within rounding. A
+/// guard that has fired is not below zero but by rounding.
+bool StateMachineStep::is_still_due(const StateMachineValues& now) const {
+  if (due.after) return now.since >= 0.5 * *due.after;
+  return due.guard.residual(now) >= -half_jump(now);
+}
+
 /// A transition of a higher priority may have left the source at the same time.
 void StateMachineStep::take(const At& at, Next& next) const {
   if (at.mode != source) return;
-  if (trigger && due.guard && !due.guard.holds(layout.values(at))) return;
+  const StateMachineValues now = layout.values(at);
+  if (trigger && due.guard && !due.guard.holds(now)) return;
+  if (!trigger && behind_return && !is_still_due(now)) return;
   layout.enter(target, leave, entry, at, next);
 }
 
@@ -77,6 +86,7 @@ ZeroCrossing StateMachineStep::crossing(const std::string& event) const {
     };
     found.start_mode = source;
     found.at_start = AtStart::ignore;
+    found.yields = behind_return;
   } else {
     found.guard = [step = *this](const At& at) { return step.residual(at); };
   }

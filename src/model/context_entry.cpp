@@ -13,17 +13,6 @@ namespace saltus {
 
 namespace {
 
-/// "x[3]" as ("x", 3); "x" as ("x", none).
-std::pair<std::string_view, std::optional<Index>> split_index(std::string_view name) {
-  const auto open = name.rfind('[');
-  if (open == std::string_view::npos || !name.ends_with(']')) return {name, {}};
-  Index index = 0;
-  const char* last = name.data() + name.size() - 1;
-  const auto [end, error] = std::from_chars(name.data() + open + 1, last, index);
-  if (error != std::errc() || end != last || index < 0) return {name, {}};
-  return {name.substr(0, open), index};
-}
-
 /// All entries of one leaf, by their names within the leaf.
 std::vector<std::pair<std::string, ContextEntry>> entries_of(const Layout::Leaf& leaf,
                                                              Index number) {
@@ -71,6 +60,16 @@ void require_possible(double value, ContextEntry::Kind kind, std::string_view na
 }
 
 }  // namespace
+
+std::pair<std::string_view, std::optional<Index>> split_index(std::string_view name) {
+  const auto open = name.rfind('[');
+  if (open == std::string_view::npos || !name.ends_with(']')) return {name, {}};
+  Index index = 0;
+  const char* last = name.data() + name.size() - 1;
+  const auto [end, error] = std::from_chars(name.data() + open + 1, last, index);
+  if (error != std::errc() || end != last || index < 0) return {name, {}};
+  return {name.substr(0, open), index};
+}
 
 std::vector<std::string> entry_names(const Layout& layout) {
   std::vector<std::string> names;

@@ -106,6 +106,13 @@ void require_sound(const Continuation& c) {
     require(truth == 0.0 || truth == 1.0, text("a relation that is ", truth));
   for (const Continuation::Guard& guard : c.guards) require_sound(guard);
   for (const Continuation::Firings& firings : c.firings) require_sound(firings);
+  for (const Continuation::Leaving& guard : c.leaving) {
+    require(guard.guard >= 0 && static_cast<std::size_t>(guard.guard) < c.guards.size(),
+            text("guard ", guard.guard, " leaves zero, of ", c.guards.size()));
+    require(std::isfinite(guard.armed_at) && std::isfinite(guard.clear_at),
+            text("guard ", guard.guard, " leaves zero from t = ", guard.armed_at, " s to ",
+                 guard.clear_at, " s"));
+  }
   for (const Continuation::Contact& contact : c.contacts) {
     require(contact.guard >= 0 && static_cast<std::size_t>(contact.guard) < c.guards.size(),
             text("a contact of guard ", contact.guard, ", of ", c.guards.size()));

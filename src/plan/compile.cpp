@@ -277,6 +277,7 @@ std::shared_ptr<const Plan> detail::completed(Plan plan, const Roots& roots) {
   add_schedule(plan);
   if (plan.event_wires.any()) sort_event_wires(plan);
   add_reads_of_guards(plan);
+  find_guards_that_follow_time(plan);
   fuse(plan);
   plan.series = std::make_shared<Kept<FlowSeries>>();
   plan.divisors = std::make_shared<Kept<FlowDivisors>>();

@@ -91,15 +91,28 @@ int event_source_of(const Plan& plan, int leaf, int event, int entry) {
   return static_cast<int>(found->slot) + entry;
 }
 
+namespace {
+
+/// The zero crossing of a source that is no time event.
+const GuardGroup& group_of(const Plan& plan, int source) {
+  const auto groups = crossings_of(plan);
+  return *(std::ranges::upper_bound(groups, Index{source}, {}, &GuardGroup::slot) - 1);
+}
+
+}  // namespace
+
 EventOrigin event_origin_of(const Plan& plan, int source) {
   if (source >= plan.guard_slots) {
     const ScheduledEvent& event = plan.scheduled(source - plan.guard_slots);
     return {event.leaf, crossings_declared(plan, event.leaf) + event.index, 0};
   }
-  const auto groups = crossings_of(plan);
-  const GuardGroup& group =
-      *(std::ranges::upper_bound(groups, Index{source}, {}, &GuardGroup::slot) - 1);
+  const GuardGroup& group = group_of(plan, source);
   return {group.leaf, group.index, source - static_cast<int>(group.slot)};
+}
+
+const std::string& event_name(const Plan& plan, int source) {
+  if (source < plan.guard_slots) return group_of(plan, source).name;
+  return plan.scheduled(source - plan.guard_slots).name;
 }
 
 namespace {

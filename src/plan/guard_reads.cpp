@@ -37,7 +37,7 @@ std::vector<int> signals_behind(const Plan& plan, const std::vector<int>& nodes)
 /// pieces, be it the guard or a function that it reads.
 std::vector<int> hidden_behind(const Plan& plan, Stepwise& stepwise, const GuardGroup& group) {
   const std::vector<int> nodes = nodes_read(plan, group);
-  if (stepwise.is_guard(group)) return signals_behind(plan, nodes);
+  if (group.stepped) return signals_behind(plan, nodes);
   std::vector<int> hidden;
   for (const int i : signals_behind(plan, nodes))
     if (stepwise.is_node(i)) append(hidden, plan.node(i).needs);

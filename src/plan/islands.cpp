@@ -113,7 +113,8 @@ class Finder {
   void join_event_wires(DelayedWires delayed) {
     std::map<std::pair<int, int>, std::vector<int>> sources;  // of each event input
     for (const EventWire& wire : plan_.event_wires.declared)
-      if (wire.delay == 0.0 || delayed == DelayedWires::join) sources[{wire.to, wire.input}].push_back(wire.from);
+      if (wire.delay == 0.0 || delayed == DelayedWires::join)
+        sources[{wire.to, wire.input}].push_back(wire.from);
     for (const auto& [to, from] : sources) {
       const PlanLeaf& of = leaf(to.first);
       join(from, to.first, text(of.path, ".", of.declared().event_inputs[to.second].name), true);
@@ -223,7 +224,9 @@ class Finder {
 
 }  // namespace
 
-Islands find_islands(const Plan& plan, DelayedWires delayed) { return Finder(plan, delayed).take(); }
+Islands find_islands(const Plan& plan, DelayedWires delayed) {
+  return Finder(plan, delayed).take();
+}
 
 namespace {
 

@@ -30,9 +30,11 @@ bool Chattering::idle(const Eigen::VectorXd& x) {
 bool Chattering::rests(const Seen& seen) {
   using namespace thresholds;
   if (moves_ || resting_.count >= resting_events) {
-    resting_ = {0, seen.t};
+    resting_ = {};
     moved_.setZero(), moves_ = false;
   }
+  if (resting_.count == 0)
+    resting_.since = seen.t;  // the time before the first event does not count
   return resting_.full(resting_events, seen.t) &&
          seen.t - resting_.since <= resting_share * seen.length_of_run;
 }

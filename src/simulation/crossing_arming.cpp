@@ -91,6 +91,7 @@ void CrossingArming::arm(std::size_t k, bool at_start) {
   const double error = present_->error_so_far(k, counts_as_zero);
   const Departure::Side flow = flow_->side(group, slot, error, facts.fired ? facts.came_from : 0);
   const Ask ask{this, &group, k, facts.came_from, flow.rounding};
+  if (facts.fired) present_->note(k).clear_after = flow.after;
   carry_out(k, decide_crossing(facts, {flow.side, flow.rounding}, ask), flow.rounding);
 }
 
@@ -229,17 +230,23 @@ bool CrossingArming::goes_against(const Firing& firing) {
   const std::size_t k = firing.guard();
   const Guard& guard = (*guards_)[k];
   const GuardGroup& group = group_of(k);
-  if (!may_be_rounding({.armed_at_zero = !std::isnan(guard.armed_at),
+  const bool waited = !std::isnan(guard.armed_at);
+  if (!may_be_rounding({.armed_at_zero = waited,
                         .monitor = guard.monitor,
                         .edge = guard.direction == Direction::edge_detection,
                         .opaque = group.is_opaque(),
-                        .at_zero = firing.at_zero}))
+                        .at_zero = firing.at_zero,
+                        .soon = present_->t <= guard.clear_at}))
     return false;
   const double location = present_->now(k).location;
-  const Departure::Side flow = flow_->side_within(present_->t - guard.armed_at, group,
-                                                  static_cast<Index>(k), location, -firing.from);
-  if (flow.side != firing.from) return false;
-  guards_->wait(k, firing.from, std::max({guard.error, location, flow.rounding}));
+  const double flight = waited ? present_->t - guard.armed_at : 0.0;
+  const Departure::Side flow =
+      flow_->side_within(flight, group, static_cast<Index>(k), location, 0);
+  if (!is_false_root(firing.from, guards_->g[k], {flow.side, flow.rounding})) return false;
+  // The rounding of its states is larger than these bounds where a state has come from afar to be small here.
+  guards_->doubt(
+      k, firing.from,
+      std::max({guard.error, location, flow.rounding, thresholds::wavered * guard.doubted}));
   return true;
 }
 

@@ -34,6 +34,12 @@ int batch_of(const Plan& plan, const PendingDelivery& one) {
   return -1;
 }
 
+PendingDelivery pending_of(const Plan& plan, int batch, double due) {
+  const EventWires::Batch& of = plan.event_wires.batches[batch];
+  const detail::EventOrigin from = detail::event_origin_of(plan, of.source);
+  return {from.leaf, from.event, from.entry, of.delay, due};
+}
+
 void Deliveries::require_fits(const Context& context) const {
   if (context.pending() == nullptr) return;
   for (const PendingDelivery& one : context.pending()->deliveries) {
@@ -53,11 +59,8 @@ void Deliveries::begin(const Context& from) {
 
 std::vector<PendingDelivery> Deliveries::save() const {
   std::vector<PendingDelivery> saved;
-  for (const auto& [key, number] : queue_.waiting()) {
-    const EventWires::Batch& batch = wires().batches[number];
-    const detail::EventOrigin from = detail::event_origin_of(plan(), batch.source);
-    saved.push_back({from.leaf, from.event, from.entry, batch.delay, key.first});
-  }
+  for (const auto& [key, number] : queue_.waiting())
+    saved.push_back(pending_of(plan(), number, key.first));
   return saved;
 }
 
@@ -89,19 +92,11 @@ void Deliveries::fire(int source) {
 /// What is due up to this time [s] is due now.
 double Deliveries::now() const { return present_->t + Calendar::slack(present_->t); }
 
-/// The event from which a batch of wires starts.
-const std::string& Deliveries::name_of(int batch) const {
-  const int source = wires().batches[batch].source;
-  if (source >= plan().guard_slots)
-    return plan().scheduled(source - static_cast<int>(plan().guard_slots)).name;
-  const auto after = std::ranges::upper_bound(plan().guards, Index{source}, {}, &GuardGroup::slot);
-  return (after - 1)->name;
-}
-
 void Deliveries::add_due(std::vector<DueNow>& all) const {
   for (const auto& [key, batch] : queue_.waiting()) {
     if (key.first > now()) break;
-    all.push_back({{WaitingKey::Queue::deliveries, key.second}, name_of(batch)});
+    all.push_back({{WaitingKey::Queue::deliveries, key.second},
+                   detail::event_name(plan(), wires().batches[batch].source)});
   }
 }
 
@@ -110,7 +105,8 @@ bool Deliveries::collect() {
     const std::int64_t number = queue_.waiting().begin()->first.second;
     fired_.push_back(queue_.take());
     if (Tangents* tangents = transition_->tangents())
-      tangents->take_delivery(number, name_of(fired_.back()));
+      tangents->take_delivery(number,
+                              detail::event_name(plan(), wires().batches[fired_.back()].source));
   }
   for (const int number : fired_) {
     const EventWires::Batch& batch = wires().batches[number];

@@ -39,12 +39,13 @@ Effects::Effect Effects::effect_of(const Action& action) {
   }
   const ZeroCrossing& crossing = plan_->crossing_of(plan_->guards[action.index]);
   return {&crossing.reset_map, crossing.end_mode ? &*crossing.end_mode : nullptr,
-          &holds_->of_guard(action.slot)};
+          &holds_->of_guard(action.slot), false, crossing.yields};
 }
 
 /// Runs the effect of a zero crossing or an edge.
 void Effects::run_reset(const Action& action, int source) {
   const Effect effect = effect_of(action);
+  if (effect.yields && transition_->changed_in_pass(action.leaf)) return note(action, source);
   Holds::Hold& hold = *effect.hold;
   const bool wrote = write(effect, action.leaf, journal_->name_of(source));
   note(action, source);

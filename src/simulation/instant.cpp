@@ -214,10 +214,16 @@ void Instant::continue_beside_root(std::size_t k) {
   if (side != guard.side) guards_->wait(k, side, flow.rounding);
 }
 
+/// Whether a guard that fired in an earlier pass is where its root was, within its error.
+bool Instant::stays_at_root(std::size_t k) const {
+  const GuardNow& now = present_.now(k);
+  return now.fired && side_after_firing(present_.g[k], now.location) == 0;
+}
+
 void Instant::look_at_crossing(std::size_t k) {
   const Guard& guard = (*guards_)[k];
   const double g = present_.g[k];
-  if (!guard.crossed(g)) return guards_->see(k, g);
+  if (!guard.crossed(g)) return stays_at_root(k) ? guards_->turn(k, 0) : guards_->see(k, g);
   if (present_.now(k).turned_beside_root && !left_zero_beside_root(k)) {
     guards_->turn(k, firing_side(guard.direction));
     return guards_->see(k, g);
@@ -225,6 +231,18 @@ void Instant::look_at_crossing(std::size_t k) {
   // Its side does not change: the flow decides when integration continues (3.4).
   if (present_.note(k).put_at_zero = crossings_.is_at_zero(k); !present_.now(k).put_at_zero)
     present_.fire(k, guard.side);
+}
+
+/// Notes when a guard fired. That is kept through other instants until the flow has taken the guard clearly off
+/// zero: the firing of another block says nothing about its side.
+void Instant::mark_armed_at(std::size_t k) {
+  const GuardNow& now = present_.now(k);
+  const Guard& guard = (*guards_)[k];
+  if (now.fired)
+    guards_->mark_armed_at(k, guard.at_zero() ? present_.t : not_armed,
+                           present_.t + now.clear_after);
+  else if (!(present_.t < guard.clear_at))
+    guards_->mark_armed_at(k, not_armed, not_armed);
 }
 
 /// Arms all active guards for the solver. A guard at zero, or a guard that just fired, gets its
@@ -239,18 +257,13 @@ void Instant::arm(bool at_start) {
       contacts_.arm_crossing(k);
     else if (!goes_on)
       crossings_.arm(k, at_start);
-    mark_armed(k);
+    mark_armed_at(k);
   }
   for (const std::size_t k : guards_->active().relations()) {
     guards_->stay(k, present_.g[k]);
     relations_.arm(k);
-    mark_armed(k);
+    mark_armed_at(k);
   }
-}
-
-void Instant::mark_armed(std::size_t k) {
-  const bool waits = present_.has_facts(k) && present_.now(k).fired && (*guards_)[k].at_zero();
-  guards_->mark_armed_at(k, waits ? present_.t : not_armed);
 }
 
 }  // namespace saltus

@@ -60,7 +60,7 @@ void Instant::select_guards() {
   machine_->select_guards();
   guards_->select(machine_->seen_guards().groups(), plan());
   for (const std::size_t k : guards_->active().all)
-    if (!(*guards_)[k].was_active) present_.note(k).entered = true;
+    if (!(*guards_)[k].was_active) present_.enters(k);
 }
 
 Continuation Instant::save() const {
@@ -70,6 +70,7 @@ Continuation Instant::save() const {
           .firings = holds_.save(),
           .edges = edges_.save(),
           .contacts = contacts_.save(),
+          .leaving = leaving_of(*guards_),
           .counts = journal_.save()};
 }
 
@@ -91,6 +92,7 @@ void Instant::resume(double t, Recorder* recorder, const Continuation& from, dou
   follow_controls();
   if (!plan().guards.empty()) machine_->guards(t, machine_->x.data(), present_.g.data());
   load_records(*guards_, from.guards);
+  load_leaving(*guards_, from.leaving);
   guards_->g = present_.g;
   contacts_.load(from.contacts);
 }

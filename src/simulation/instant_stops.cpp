@@ -9,15 +9,6 @@
 
 namespace saltus {
 
-namespace {
-
-/// [s] Within this of a stop a crossing is there.
-double time_resolution(double t) {
-  return thresholds::stop_roundings * thresholds::eps * std::abs(t);
-}
-
-}  // namespace
-
 bool Instant::meets_stop(double t, double longest) {
   if (guards_->beside_stop.empty()) return !guards_->fired_at_root.empty();
   present_.open(t, longest);
@@ -30,14 +21,14 @@ bool Instant::meets_stop(double t, double longest) {
 }
 
 bool Instant::roots_are_at(double t, double root, double longest) {
-  if (t - root <= time_resolution(t)) return true;
-  present_.open(t, longest);
-  flow_.open(t, longest);
-  machine_->guards_at(t, machine_->x.data(), present_.g.data());
+  if (t - root <= Calendar::resolution(t)) return true;
+  present_.open(root, longest);
+  flow_.open(root, longest);
   const bool there = std::ranges::all_of(guards_->fired_at_root, [&](const Firing& firing) {
     const std::size_t k = firing.guard();
     return !plan().guard((*guards_)[k].group).is_opaque() &&
-           std::abs(present_.g[k]) <= crossings_.uncertainty(k);
+           std::abs(flow_.value_after(t - root, static_cast<Index>(k))) <=
+               crossings_.uncertainty(k);
   });
   flow_.forget();
   return there;
@@ -51,7 +42,7 @@ bool Instant::crosses_at_stop(std::size_t k) {
   if (std::ranges::any_of(guards_->fired_at_root, fired)) return false;
   const GuardGroup& group = plan().guard(guard.group);
   const double g = guards_->g[k];
-  const double later = flow_.value_after(time_resolution(present_.t), slot);
+  const double later = flow_.value_after(Calendar::resolution(present_.t), slot);
   const double uncertainty = group.is_opaque() ? 0.0 : crossings_.uncertainty(k);
   const auto flow_to = [&] { return flow_.side(group, slot, uncertainty, 0).side; };
   return saltus::crosses_at_stop(guard, g, later, uncertainty, flow_to);

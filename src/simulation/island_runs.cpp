@@ -211,8 +211,8 @@ const Results& IslandRuns::results() const noexcept {
 
 Results IslandRuns::take_results() {
   merger_.merge();
-  Results taken = std::move(results_);
-  results_ = {};
+  Results taken;
+  std::swap(taken, results_);
   merger_.renew(time_);
   results_.status = taken.status, results_.message = taken.message, results_.block = taken.block;
   results_.cause = taken.cause, results_.context = taken.context;

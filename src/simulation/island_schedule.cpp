@@ -2,6 +2,7 @@
 #include "saltus/simulation/detail/island_schedule.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "saltus/plan/detail/event_wiring.hpp"
 #include "saltus/simulation/detail/side_by_side.hpp"
@@ -14,13 +15,13 @@ IslandSchedule::End IslandSchedule::run(double t_end, double latest, std::size_t
   require_apart(t_end);
   End end{std::min(t_end, latest)};
   queue_.clear(), next_.assign(runs_.size(), std::numeric_limits<double>::infinity());
-  for (std::size_t k = 0; k < runs_.size(); ++k) runs_[k]->begin_piece(t_end);
-  for (std::size_t k = 0; k < runs_.size(); ++k) post_fired(k), note_end(k, end);
-  for (std::size_t k = 0; k < runs_.size(); ++k) enqueue(k);
+  for (Run* run : runs_) run->begin_piece(t_end);
+  window_.resize(runs_.size());
+  std::iota(window_.begin(), window_.end(), std::size_t{0});
+  close_window(end);
   while (take_window(end)) {
     run_window(end, threads);
-    for (const std::size_t k : window_) post_fired(k), note_end(k, end);
-    for (const std::size_t k : window_) enqueue(k);
+    close_window(end);
     if (end.stopped || !asks()) continue;
     end.stopped = true;
     for (const Run* run : runs_) time_ = std::max(time_, run->time());
@@ -66,6 +67,12 @@ void IslandSchedule::run_window(const End& end, std::size_t threads) {
       runs_[nth(window_, j)]->run_window(safe_, end.time);
   };
   side_by_side((count + block - 1) / block, threads, run_block, [] {});
+}
+
+/// What the islands of a window have sent, and when each of them goes on.
+void IslandSchedule::close_window(End& end) {
+  for (const std::size_t k : window_) post_fired(k), note_end(k, end);
+  for (const std::size_t k : window_) enqueue(k);
 }
 
 /// An island that ends before the others ends the run; of several the first.

@@ -82,10 +82,8 @@ bool IslandSchedule::is_inside(const PendingDelivery& one) const {
 std::vector<PendingDelivery> IslandSchedule::waiting(double t) const {
   std::vector<PendingDelivery> all;
   for (auto one = sent_.upper_bound(t + Calendar::slack(t)); one != sent_.end(); ++one) {
-    const auto& [due, number] = *one;
-    const EventWires::Batch& batch = plan_->event_wires.batches[number];
-    const detail::EventOrigin from = detail::event_origin_of(*plan_, batch.source);
-    if (inside_[number] == 0) all.push_back({from.leaf, from.event, from.entry, batch.delay, due});
+    const auto& [due, batch] = *one;
+    if (inside_[batch] == 0) all.push_back(pending_of(*plan_, batch, due));
   }
   return all;
 }

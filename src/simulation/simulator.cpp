@@ -12,8 +12,7 @@ namespace saltus {
 namespace {
 
 Islands islands_for(const Plan& plan, const SimulatorOptions& options) {
-  return find_islands(plan,
-                      options.sensitivity.empty() ? DelayedWires::cut : DelayedWires::join);
+  return find_islands(plan, options.sensitivity.empty() ? DelayedWires::cut : DelayedWires::join);
 }
 
 }  // namespace
@@ -102,7 +101,8 @@ std::string Simulator::describe() const {
                 const Turn turn = run.claim("describe");
                 return run.describe();
               }) +
-         (run_ && run_->options().islands ? islands_for(run_->plan(), run_->options()).describe() : "");
+         (run_ && run_->options().islands ? islands_for(run_->plan(), run_->options()).describe()
+                                          : "");
 }
 
 }  // namespace saltus

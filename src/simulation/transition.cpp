@@ -70,6 +70,13 @@ At Transition::seen(int leaf, Index entry, double t) {
   return at;
 }
 
+bool Transition::changed_in_pass(int leaf) const {
+  const PlanLeaf& of = machine_->plan().leaf(leaf);
+  return modes_next_[leaf] != machine_->modes[leaf] ||
+         !std::equal(z_next_.data() + of.z, z_next_.data() + of.z + of.nz,
+                     machine_->z.data() + of.z);
+}
+
 Inputs Transition::inputs_before(int leaf) {
   minus_ = {x_minus_.data(), z_minus_.data(), machine_->p.data(), y_minus_.data()};
   const List<Place>& places = machine_->plan().leaf(leaf).input_places;

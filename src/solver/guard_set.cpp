@@ -1,6 +1,7 @@
 // GuardSet: made from a plan, cleared for a run, chosen by mode.
 #include "saltus/solver/detail/guard_set.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace saltus {
@@ -21,6 +22,7 @@ GuardSet::GuardSet(const Plan& plan) : g(plan.look_slots, 1.0) {
                           .monitor = group.monitor,
                           .jumps = group.is_opaque(),
                           .stepped = group.stepped,
+                          .follows_time = group.follows_time,
                           .group = static_cast<int>(i),
                           .entry = entry}});
     }
@@ -78,6 +80,23 @@ std::vector<Continuation::Guard> records_of(const GuardSet& guards) {
     saved.push_back(
         {guard.side, guard.came_from, guard.at_zero(), guard.rests, guard.error, guard.base});
   return saved;
+}
+
+std::vector<Continuation::Leaving> leaving_of(const GuardSet& guards) {
+  std::vector<Continuation::Leaving> saved;
+  for (std::size_t k = 0; k < guards.all().size(); ++k) {
+    const Guard& guard = guards[k];
+    if (std::isnan(guard.clear_at)) continue;
+    const bool waited = !std::isnan(guard.armed_at);
+    saved.push_back({static_cast<int>(k), waited, waited ? guard.armed_at : 0.0, guard.clear_at});
+  }
+  return saved;
+}
+
+void load_leaving(GuardSet& guards, const std::vector<Continuation::Leaving>& from) {
+  for (const Continuation::Leaving& one : from)
+    guards.mark_armed_at(static_cast<std::size_t>(one.guard), one.waited ? one.armed_at : not_armed,
+                         one.clear_at);
 }
 
 void load_records(GuardSet& guards, const std::vector<Continuation::Guard>& from) {

@@ -21,6 +21,15 @@ def test_a_backlash_against_its_closed_form(method):
     assert moves[3] == moves[5] == 0.0
 
 
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("rate", [Constant(0.0), Constant(2.0), Sine(2.0)])
+def test_a_rate_that_does_not_show_the_turn_ends_the_run(method, rate):
+    """u = 2 sin t drives y from u = 1/2 on, and is back there at pi - asin(1/4)."""
+    with pytest.raises(saltus.SimulationError, match="in_rate is the rate of in") as caught:
+        response(Backlash(1.0), Sine(2.0), rate, t=[8.0], ode_solver_method=method)
+    assert caught.value.time == pytest.approx(np.pi - np.arcsin(0.25), abs=1e-3)
+
+
 def play(u, width, y):
     """The play operator: y[k] = min(max(y[k-1], u[k] - width / 2), u[k] + width / 2)."""
     out = []

@@ -71,3 +71,23 @@ def test_both_in_a_file(tmp_path):
     results = saltus.load_scene(file).simulate()
     assert results.outputs["v"][-1] == pytest.approx(2.0, abs=1e-9)
     assert results.outputs["level"][-1] == 2.0
+
+
+BEYOND = [
+    # limits, the state at the start, the push before and from 2 s on, and the state at 4 s
+    (dict(upper_limit=0.5), [0.6, 0.0], (1.0, 1.0), [8.6, 4.0]),  # it does not act
+    (dict(upper_limit=0.5), [0.6, -1.0], (-0.5, 8.0), [0.5, 0.0]),  # inside, and then stopped
+    (dict(upper_velocity_limit=2.0), [0.0, 3.0], (1.0, 1.0), [12.0, 3.0]),  # constant there
+    (dict(upper_velocity_limit=2.0), [0.0, 3.0], (-1.0, 3.0), [7.8333333333333333, 2.0]),
+]
+
+
+@pytest.mark.parametrize(("limits", "start", "push", "end"), BEYOND)
+def test_a_limit_beyond_which_a_body_begins_acts_from_its_return_on(limits, start, push, end):
+    builder = saltus.DiagramBuilder()
+    force, body = builder.add(Step(*push, step_time=2.0), SecondOrderIntegrator(**limits))
+    builder.connect(force.output(), body.input())
+    diagram = builder.build()
+    context = diagram.create_context().with_continuous_state(start)
+    found = saltus.simulate(diagram, context, (0.0, 4.0)).context.continuous_state
+    np.testing.assert_allclose(found, end, atol=1e-7)

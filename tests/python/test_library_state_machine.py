@@ -135,6 +135,58 @@ def test_one_transition_is_taken_by_priority(priorities, kind, source):
         assert len(results.events) == 2 + isinstance(source, Step)
 
 
+def digits(transitions):
+    """A state "on" with transitions to itself, or to "off" and back; each appends its digit."""
+    made = []
+    for digit, each in enumerate(transitions, 1):
+        action = lambda log, digit=digit: {"log": 10 * log + digit}  # noqa: E731
+        made.append(
+            Transition("on", each.pop("target", "on"), action=action, name=f"t{digit}", **each)
+        )
+    return StateMachine(["on", "off"], made, inputs=["u"], variables={"log": 0.0}, name="m")
+
+
+def rises(u):
+    return u > 0.5
+
+
+TICKS = [
+    # transitions from "on", and the log at 2.75 s of a pulse that rises at 1/2, 3/2 and 5/2 s
+    ("two triggers", [dict(trigger=rises), dict(trigger=rises)], 111.0),
+    ("by priority", [dict(trigger=rises), dict(trigger=rises, priority=1.0)], 222.0),
+    ("two times", [dict(after=0.75), dict(after=0.75)], 111.0),
+    ("a longer time never comes", [dict(after=0.75), dict(after=1.0)], 111.0),
+    (
+        "the guard of the first is false",
+        [dict(trigger=rises, guard=lambda log: log < 0), dict(trigger=rises)],
+        222.0,
+    ),
+    (
+        "away, where the first returns",
+        [dict(trigger=rises), dict(trigger=rises, target="off")],
+        111.0,
+    ),
+    (
+        "a guard that the first makes true is taken at once",
+        [dict(trigger=rises), dict(guard=lambda log: log > 10, target="off")],
+        112.0,
+    ),
+    (
+        "a guard that the first makes false is not taken",
+        [dict(trigger=rises), dict(guard=lambda log, u: (log < 1) & (u > 0.5), target="off")],
+        111.0,
+    ),
+]
+
+
+@pytest.mark.parametrize("python", PYTHON)
+@pytest.mark.parametrize(("what", "transitions", "log"), TICKS, ids=[each[0] for each in TICKS])
+def test_one_of_several_transitions_of_a_state_to_itself_is_taken(what, transitions, log, python):
+    machine = digits([dict(each) for each in transitions])
+    results = run(machine, Pulse(period=1.0, phase_delay=0.5), 2.75, python=python)
+    assert results.context[machine].discrete_state[1] == log
+
+
 def test_a_trigger_moves_on_by_one_state_each_time():
     """One edge is one transition, though the next state waits for the same trigger; a trigger that
     is true at the start is none."""

@@ -512,3 +512,58 @@ def test_an_update_at_the_tick_at_which_the_outer_part_changes(of_inner, values,
 def test_what_is_executed_is_a_system(block, system):
     with pytest.raises(saltus.ModelError, match="expected the system that it executes"):
         block(system)
+
+
+def levels(name, changes):
+    times, values = np.array(changes, float).T
+    return DataSource(times, values, interpolation="zero_order_hold", name=name)
+
+
+def sampler(edge, control):
+    """It takes the time at the edges of its input "trigger", behind a control port or a comparison."""
+    builder = saltus.DiagramBuilder()
+    clock, taken = builder.add(Clock(), UnitDelay(-1.0, name="taken"))
+    builder.connect(clock.output(), taken.input())
+    if control == "port":
+        decides = builder.add(ControlPort())
+    else:
+        decides, half = builder.add(Comparator(">"), Constant(0.5))
+        builder.connect(half.output(), decides.input(1))
+    builder.export_input(decides.input(0), "trigger")
+    builder.execute(taken, decides.output(), "triggered", edge=edge)
+    builder.export_output(taken.output(), "out")
+    return builder.build(name="sampler")
+
+
+UP, DOWN = [(0, 0), (4, 1)], [(0, 1), (4, 0)]
+EDGES = [
+    # the edge, the trigger, and the last edge that is seen; enabled until 3 s and from 6 s on
+    ("rising", [(0, 0), (2, 1)], 2.0),
+    ("rising", UP, 0.0),
+    ("falling", DOWN, 0.0),
+    ("either", UP, 0.0),
+    ("either", DOWN, 0.0),
+    ("rising", [(0, 0), (1, 1)], 1.0),
+    ("falling", [(0, 1)], 0.0),
+    ("rising", [(0, 0), (6, 1)], 6.0),
+    ("rising", [(0, 0), (3, 1)], 0.0),
+    ("rising", [(0, 0), (4, 1), (5, 0), (7, 1)], 7.0),
+]
+
+
+@pytest.mark.parametrize(("edge", "trigger", "last"), EDGES)
+@pytest.mark.parametrize("control", ["port", "comparison"])
+def test_an_edge_counts_at_its_time_if_the_part_around_it_is_enabled_then(
+    edge, trigger, last, control
+):
+    """Neither an edge while it is not enabled, nor a return to a trigger that is true meanwhile."""
+    builder = saltus.DiagramBuilder()
+    outer = builder.add(EnabledSubsystem(sampler(edge, control), name="outer"))
+    for name, source in (
+        ("trigger", levels("trigger", trigger)),
+        ("enable", levels("enable", [(0, 1), (3, 0), (6, 1)])),
+    ):
+        builder.connect(builder.add(source).output(), outer.input(name))
+    builder.export_output(outer.output(), "out")
+    results = saltus.simulate(builder.build(), (0.0, 10.0))
+    assert results["out"][-1] == last

@@ -9,7 +9,7 @@ namespace {
 /// What the guard at the root does to the state.
 enum class Effect { stop_by_mode, stop_by_state, stop_by_number, put_there, go_on, bounce };
 constexpr std::array effects{Effect::stop_by_mode, Effect::stop_by_state, Effect::stop_by_number,
-                             Effect::put_there, Effect::go_on, Effect::bounce};
+                             Effect::put_there,    Effect::go_on,         Effect::bounce};
 
 /// The guard beside it: the same curve in other words, so that roundings differ.
 enum class View { same, scaled, expanded };

@@ -130,3 +130,91 @@ TEST_CASE("3.7 a mode that is entered on the way through its surface is not left
   CHECK(results.events.times("first").size() == 1);
   CHECK(results.events.times("second").empty());
 }
+
+namespace {
+
+/// x' = 1 in mode 0, `rate` in mode 1. "there" resets x to `to` and enters mode 1; "back", which this moves
+/// across its level at 0.2, enters mode 0 again in the same instant.
+Leaf there_and_back(std::optional<int> seen_in, double to, double rate, bool back_resets) {
+  return Leaf("leaf", [=](Leaf& l) {
+    l.declare_default_mode(0);
+    l.declare_continuous_state(
+        {.initial = vec({-0.5}), .ode = [=](const At& at) { return at.mode == 0 ? 1.0 : rate; }});
+    l.declare_zero_crossing(
+        {.name = "there",
+         .guard = [](const At& at) { return at.x[0]; },
+         .reset_map = [=](const At&, Next& next) { next.set_continuous_state({to}); },
+         .direction = Direction::negative_then_non_negative,
+         .start_mode = seen_in,
+         .end_mode = 1});
+    ZeroCrossing back{.name = "back",
+                      .guard = [](const At& at) { return at.x[0] - 0.2; },
+                      .direction = Direction::negative_then_non_negative,
+                      .end_mode = 0};
+    if (back_resets)
+      back.reset_map = [=](const At&, Next& next) { next.set_continuous_state({to}); };
+    l.declare_zero_crossing(back);
+  });
+}
+
+}  // namespace
+
+/// "there" is beyond zero when its mode is entered again: it waits until it has been on its armed side. It
+/// never is, because x' = 1.
+TEST_CASE("3.7 a mode that is left and entered again in one instant is entered", "[semantics]") {
+  const auto method = GENERATE(from_range(methods));
+  for (const std::optional<int> seen_in : {std::optional<int>(0), std::optional<int>()})
+    for (const double to : {0.4, 5.0})
+      for (const double rate : {-0.6, 0.6, 1.0})
+        for (const bool back_resets : {false, true}) {
+          INFO(method << ", reset to " << to << ", rate " << rate << ", the second resets "
+                      << back_resets);
+          const Leaf leaf = there_and_back(seen_in, to, rate, back_resets);
+          const Results results =
+              simulate(leaf, leaf.create_context(), {0.0, 1.0}, {.ode_solver_method = method});
+          CHECK(results.events.times("there").size() == 1);
+          CHECK(results.events.times("back").size() == 1);
+          CHECK(results.context.mode() == 0);
+          // Where a straight line begins and ends has the rounding of the root, of either time.
+          CHECK(std::abs(results.context.continuous_state()[0] - (to + 0.5)) <= 1e-12);
+        }
+}
+
+/// x falls from 1. "leave" enters mode 1 at x = 0, where the guard "fires" is seen, with the value z + 0.5: on its
+/// armed side. A third guard carries it across.
+TEST_CASE("3.7 a guard that fires in the instant in which its mode is entered fires once",
+          "[semantics]") {
+  const auto method = GENERATE(from_range(methods));
+  const Leaf leaf("leaf", [](Leaf& l) {
+    l.declare_default_mode(0);
+    l.declare_continuous_state(
+        {.initial = vec({1.0}), .ode = [](const At& at) { return at.mode == 0 ? -1.0 : 1.0; }});
+    l.declare_discrete_state(vec({0.0, 0.0}));
+    l.declare_zero_crossing(
+        {.name = "leave",
+         .guard = [](const At& at) { return at.x[0]; },
+         .reset_map = [](const At& at, Next& next) { next.set_discrete_state({1.0, at.z[1]}); },
+         .direction = Direction::positive_then_non_positive,
+         .start_mode = 0,
+         .end_mode = 1});
+    l.declare_zero_crossing(
+        {.name = "carry",
+         .guard = [](const At& at) { return at.z[0] - 0.5; },
+         .reset_map = [](const At& at,
+                         Next& next) { next.set_discrete_state({at.z[0] + 1.0, at.z[1]}); },
+         .direction = Direction::negative_then_non_negative});
+    // It turns with the mode: in mode 0 its slope is -1, in mode 1 +1.
+    l.declare_zero_crossing(
+        {.name = "fires",
+         .guard = [](const At& at) { return at.x[0] - 1.5 + at.z[0]; },
+         .reset_map = [](const At& at,
+                         Next& next) { next.set_discrete_state({at.z[0], at.z[1] + 1.0}); },
+         .direction = Direction::negative_then_non_negative,
+         .start_mode = 1});
+  });
+  const Results results =
+      simulate(leaf, leaf.create_context(), {0.0, 1.25}, {.ode_solver_method = method});
+  for (const char* name : {"leave", "carry", "fires"})
+    CHECK(results.events.times(name).size() == 1);
+  CHECK(results.context.discrete_state() == vec({2.0, 1.0}));
+}

@@ -23,9 +23,9 @@ Leaf delayed_ramp(NumberOf delay) {
 }
 
 /// z[0] is the side of two queued zero crossings that set each other off, from the kick at 1 s on.
-Leaf pair(double delay) {
+Leaf pair(double delay, double rate = 1.0) {
   return Leaf("pair", [=](Leaf& l) {
-    declare_ramp(l);
+    declare_ramp(l, rate);
     l.declare_discrete_state(vec({-1.0}));
     for (const double side : {1.0, -1.0}) {
       l.declare_zero_crossing(
@@ -256,4 +256,19 @@ TEST_CASE("3.13 executions that are due at once are no chain, however many there
   const auto results = simulate(leaf, leaf.create_context(), {0.0, 2.0});
   CHECK(results.context.discrete_state()[0] == n);
   CHECK(count(results.events, EventKind::executed) == n);
+}
+
+TEST_CASE("4.7 executions at a nanosecond from each other chatter if no state moves meanwhile",
+          "[semantics]") {
+  const auto status = [](double rate) {
+    const Leaf leaf = pair(1e-9, rate);
+    return simulate(leaf, leaf.create_context(), {0.0, 10.0},
+                    {.ode_solver_method = Method::dopri5,
+                     .max_major_steps = 1'100'000,
+                     .record_events = false,
+                     .throw_errors = false})
+        .status;
+  };
+  CHECK(status(0.0) == Status::chattering);
+  CHECK(status(1.0) == Status::step_limit);  // the state moves by 1e-3 meanwhile
 }

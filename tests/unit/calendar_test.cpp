@@ -18,7 +18,9 @@ Plan schedules(const std::vector<std::pair<double, double>>& events) {
 
 }  // namespace
 
-TEST_CASE("A root may be at the next time event within a ten-thousandth of its step, or within rounding") {
+TEST_CASE(
+    "A root may be at the next time event within a ten-thousandth of its step, or within "
+    "rounding") {
   const Leaf leaf("leaf", [](Leaf& l) { l.declare_one_shot(2.0, {}, "tick"); });
   const auto plan = compile(leaf);
   Calendar calendar(*plan);

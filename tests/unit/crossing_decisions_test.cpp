@@ -355,15 +355,15 @@ TEST_CASE("A guard whose mode was entered at its zero") {
        {0, eps},
        {.slope_ = 0.0},
        within_tolerance(1)},
-      {"fired into a mode that leads back too: it fires",
+      {"fired since its mode was entered: decided as one that fired",
        [&] {
          CrossingFacts f = entered;
          f.fired = true, f.came_from = 1;
          return f;
        }(),
        {-1, eps},
-       {.round = true},
-       slides},
+       {},
+       waits_at(-1)},
       {"a monitor does not slide", monitor, {-1, eps}, {.slope_ = -1.0}, waits_at(-1)},
   });
 }
@@ -374,4 +374,14 @@ TEST_CASE("A slope is passed through with if it went the same way before, and wa
   CHECK_FALSE(passed_through(1e-7, 1.0));
   CHECK_FALSE(passed_through(1.0, 0.0));
   CHECK_FALSE(passed_through(1.0, -1.0));
+}
+
+TEST_CASE("A root is false if the flow still leaves zero, or if nothing shows that it has left") {
+  for (const int from : {1, -1}) {
+    CHECK(is_false_root(from, -from * 2.0 * eps, {from, eps}));
+    CHECK_FALSE(is_false_root(from, 0.0, {-from, eps}));
+    CHECK(is_false_root(from, -from * eps, {0, eps}));
+    CHECK(is_false_root(from, 0.0, {0, 0.0}));
+    CHECK_FALSE(is_false_root(from, -from * 2.0 * eps, {0, eps}));
+  }
 }

@@ -103,6 +103,28 @@ TEST_CASE("a Backlash misses no turn of a long run", "[library][mechanics]") {
   CHECK_THAT(results.context.continuous_state()[0], WithinAbs(-0.75, 60.0 * solver_tolerance));
 }
 
+/// Without the turn y would go back with u: the play would be lost without a word.
+TEST_CASE("a Backlash refuses a rate that does not show the turn of its input",
+          "[library][mechanics]") {
+  const double rate = GENERATE(0.0, 1.0), side = GENERATE(1.0, -1.0);  // u = 2 sin t, and -2 sin t
+  const auto wrong = [&](DiagramBuilder& builder, auto& block) {
+    builder.connect(builder.add<Sine>("u", Sine::Options{.amplitude = 2.0 * side}).output(),
+                    block.input(0));
+    builder.connect(builder.add<Constant>("rate", rate * side).output(), block.input(1));
+  };
+  const BlockRun<Backlash> scene(wrong, 1.0);
+  SimulatorOptions options = precise();
+  options.throw_errors = false;
+  const Results results = scene.run(8.0, options);
+  INFO(results.message);
+  CHECK(results.status == Status::failed);
+  CHECK(contains(results.message, "block 'block': u drives y "));
+  CHECK(contains(results.message, "in_rate is the rate of in, du/dt"));
+  CHECK(contains(results.message, text("it is ", rate * side, " now")));
+  // Back to u = 1/2 on the way down from 2, and on by a thousandth of the play.
+  CHECK_THAT(results.context.time(), WithinAbs(pi - std::asin(0.2495), 1e-6));
+}
+
 /// The integral of y over a period: the loop is symmetrical.
 TEST_CASE("a Backlash that reaches a derivative is exact there", "[library][mechanics]") {
   const double end = 4.0 * pi, start = 2.0 * pi;

@@ -161,6 +161,52 @@ TEST_CASE("of the transitions that could be taken at one time one is taken, by p
   }
 }
 
+TEST_CASE("of several transitions of a state to itself that are due at one time one is taken") {
+  // The pulse rises at 1/2, 3/2 and 5/2 s. Each transition from "on" appends its digit to the log.
+  struct Row {
+    const char* what;
+    StateMachineTransition first, second;
+    double log;
+  };
+  const auto log_beyond = [](double level) {
+    return [=](const Now& now) { return now.variables[0] > level; };
+  };
+  const Condition rises = above(0.5);
+  const StateMachineTransition again{"on", "on", {}, rises}, away{"on", "off", {}, rises};
+  const StateMachineTransition soon{.source = "on", .target = "on", .after = 0.75};
+  const std::vector<Row> rows{
+      {"two triggers", again, again, 111.0},
+      {"by priority",
+       again,
+       {.source = "on", .target = "on", .trigger = rises, .priority = 1.0},
+       222.0},
+      {"two times", soon, soon, 111.0},
+      {"a longer time never comes", soon, {.source = "on", .target = "on", .after = 1.0}, 111.0},
+      {"the guard of the first is false", {"on", "on", log_beyond(1e9), rises}, again, 222.0},
+      {"away, where the first returns", again, away, 111.0},
+      {"a guard that the first makes true is taken at once",
+       again,
+       {"on", "off", log_beyond(10.0)},
+       112.0},
+      {"a guard that the first makes false is not taken",
+       again,
+       {"on", "off", [](const Now& now) { return now.variables[0] < 1.0 && now.inputs(0) > 0.5; }},
+       111.0}};
+  for (const Row& row : rows) {
+    INFO(row.what);
+    StateMachineOptions options{
+        .states = {"on", "off"}, .inputs = {"u"}, .variables = {{"log", 0.0}}};
+    double digit = 1.0;
+    for (StateMachineTransition each : {row.first, row.second}) {
+      each.name = text("t", digit);
+      each.action = append(digit++);
+      options.transitions.push_back(each);
+    }
+    const BlockRun<StateMachine> scene(pulse(1.0, 0.5, 0.5), options);
+    CHECK(scene.at({2.75}, 1)[0] == row.log);
+  }
+}
+
 TEST_CASE("a trigger moves a state machine on by one state each time") {
   const StateMachineOptions two{
       .states = {"a", "b", "c"},

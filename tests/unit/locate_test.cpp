@@ -114,24 +114,31 @@ TEST_CASE("a dip in the first piece after a restart is found by the look behind 
 TEST_CASE("by default a step has as many points as the degree of its interpolant", "[locate]") {
   // A step of 1 s in which the guard comes close to zero: a look at the end, then one at each
   // point.
-  const Leaf leaf("near", [](Leaf& l) {
+  const bool called = GENERATE(true, false);
+  const Leaf leaf("near", [=](Leaf& l) {
     declare_ramp(l);
-    l.declare_zero_crossing(
-        {.name = "near", .guard = [](const At& at) { return 1.0 + at.x[0] * (at.x[0] - 1.0); }});
+    ZeroCrossing near{.name = "near"};
+    if (called)
+      near.guard = [](const At& at) { return 1.0 + at.x[0] * (at.x[0] - 1.0); };
+    else
+      near.formula = Formula([](const auto& at) { return 1.0 + at.x(0) * (at.x(0) - 1.0); });
+    l.declare_zero_crossing(near);
   });
   const auto looks = [&](Method method, std::optional<int> points) {
     return run(leaf, method, {.first_step = 1.0, .event_scan_points = points})
         .statistics.guard_calls;
   };
   for (const auto& [method, degree] : {std::pair{Method::dopri5, 4}, {Method::dop853, 7}}) {
-    INFO("method " << method);
+    INFO("method " << method << (called ? ", called" : ""));
     CHECK(looks(method, {}) == looks(method, degree));
-    // The first step of a run has four more, from which the distance of the looks is chosen.
-    CHECK(looks(method, degree) == looks(method, 0) + degree + 4);
+    // The first step of a run has four more, from which the distance of the looks is chosen, and one at
+    // which a called guard is asked whether it follows the time.
+    CHECK(looks(method, degree) == looks(method, 0) + degree + 4 + called);
   }
 }
 
-TEST_CASE("a guard may be at zero at a stop where it is far nearer to zero than it moved", "[locate]") {
+TEST_CASE("a guard may be at zero at a stop where it is far nearer to zero than it moved",
+          "[locate]") {
   Guard guard;
   guard.set(Phase::armed, -1, 0.0);
   for (const double move : {1.0, -1.0, 1e-200, 1e200}) {

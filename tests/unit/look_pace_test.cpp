@@ -129,3 +129,30 @@ TEST_CASE("a guard that seems to be noise again and again is left out", "[look_p
   judged.note(true);
   CHECK_FALSE(judged.yes());
 }
+
+TEST_CASE("where a guard follows the time, a step passes if one half as long was looked into",
+          "[look_pace]") {
+  LookPace pace;
+  CHECK_FALSE(pace.shows(1.0));  // nothing is known
+  pace.see(1.0);
+  CHECK(pace.shows(1.0));
+  CHECK(pace.shows(0.1));
+  CHECK(pace.shows(2.0));
+  CHECK_FALSE(pace.shows(2.1));
+  pace.see(0.4);  // only the last one counts: the guard may be faster by now
+  CHECK_FALSE(pace.shows(1.0));
+  pace.see(1.0);
+  REQUIRE(pace.halve(0.4, 0.01));  // to looks 0.2 apart
+  CHECK_FALSE(pace.shows(0.3));
+  CHECK(pace.shows(0.2));
+}
+
+TEST_CASE("looks after a restart, or as far apart as the even ones, do not show such a guard",
+          "[look_pace]") {
+  LookPace pace;
+  CHECK(pace.is_doubtful(0.2, true));
+  CHECK(pace.is_doubtful(0.2, false));
+  REQUIRE(pace.halve(0.2, 0.01));
+  CHECK(pace.is_doubtful(0.2, true));
+  CHECK_FALSE(pace.is_doubtful(0.2, false));
+}

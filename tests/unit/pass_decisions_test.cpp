@@ -24,7 +24,8 @@ TEST_CASE("a guard beside the root of another one has crossed only where the flo
     CHECK_FALSE(crossed_beside_root(direction, phase, unasked));
 }
 
-TEST_CASE("a guard beside the root of another one is on its armed side only if the flow takes it there") {
+TEST_CASE(
+    "a guard beside the root of another one is on its armed side only if the flow takes it there") {
   const auto direction =
       GENERATE(Direction::positive_then_non_positive, Direction::negative_then_non_negative);
   const int firing = firing_side(direction);
@@ -48,8 +49,8 @@ TEST_CASE("a guard crosses at a stop by its value, by the flow a rounding later,
   for (const int side : {-1, 1}) {
     Guard guard;
     guard.set(Phase::armed, side, 0.0);
-    CHECK(crosses_at_stop(guard, 0.0, side, 0.0, unasked));       // it is there
-    CHECK(crosses_at_stop(guard, side, -side, 0.0, unasked));     // it is there a rounding later
+    CHECK(crosses_at_stop(guard, 0.0, side, 0.0, unasked));    // it is there
+    CHECK(crosses_at_stop(guard, side, -side, 0.0, unasked));  // it is there a rounding later
     CHECK_FALSE(crosses_at_stop(guard, side, side, 0.5, unasked));
     CHECK(crosses_at_stop(guard, 0.4 * side, side, 0.5, to(-side)));
     CHECK_FALSE(crosses_at_stop(guard, 0.4 * side, side, 0.5, to(side)));
@@ -120,20 +121,22 @@ TEST_CASE("a guard's value is uncertain by its rounding, and by its slope times 
   CHECK(value_uncertainty(0.0, slope, t) == 8.0 * location_roundings * eps);
 }
 
-TEST_CASE("the flow is asked about a root only where the guard has been within its error") {
+TEST_CASE("the flow is asked about a root only where it may be rounding") {
   const RootFacts rounding{.armed_at_zero = true, .at_zero = true};
-  CHECK(may_be_rounding(rounding));
-  RootFacts true_root = rounding;
-  true_root.at_zero = false;
-  CHECK_FALSE(may_be_rounding(true_root));
-  RootFacts opaque = true_root;  // its values are only signs: it cannot be clearly off zero
-  opaque.opaque = true;
-  CHECK(may_be_rounding(opaque));
-  for (RootFacts facts : {rounding, opaque}) {
+  const RootFacts opaque{.armed_at_zero = true, .opaque = true};  // its values are only signs
+  const RootFacts soon{.soon = true};
+  CHECK_FALSE(may_be_rounding({}));
+  CHECK_FALSE(may_be_rounding({.armed_at_zero = true}));  // a true root
+  for (const RootFacts& facts : {rounding, opaque}) {
+    CHECK(may_be_rounding(facts));
+    RootFacts never_waited = facts;
+    never_waited.armed_at_zero = false;
+    CHECK_FALSE(may_be_rounding(never_waited));
+  }
+  for (RootFacts facts : {rounding, opaque, soon}) {
+    CHECK(may_be_rounding(facts));
     RootFacts other = facts;
-    other.armed_at_zero = false;
-    CHECK_FALSE(may_be_rounding(other));
-    other = facts, other.monitor = true;
+    other.monitor = true;
     CHECK_FALSE(may_be_rounding(other));
     other = facts, other.edge = true;
     CHECK_FALSE(may_be_rounding(other));

@@ -86,7 +86,7 @@ TEST_CASE("only the guard that hides something in vain is left out", "[piece_jud
 /// A guard and, behind it, a value that it reads.
 struct ReadJudge {
   explicit ReadJudge(bool rests = false) : guards{{.jumps = true}} {
-    located.add(0, 0);
+    located.add(0, {.group = 0});
     GuardGroup group;
     group.reads = {{.slot = 1}};
     located.add_reads(group);

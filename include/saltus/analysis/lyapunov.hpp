@@ -30,8 +30,8 @@ struct LyapunovSpectrum {
   Eigen::VectorXd exponents;
   /// [1/s] Their standard errors, by batches of the time; infinite with too few pieces.
   Eigen::VectorXd errors;
-  /// Whether each error is at most `tolerance` times the size of its exponent. One that may be zero
-  /// (within two errors) has the smallest other one as its size; if all may be zero, 1 over the time.
+  /// Whether each error is at most `tolerance` times the size of its exponent. An exponent
+  /// that is zero within two errors has the size of the smallest other exponent. If all are, it is 1 over the time.
   bool converged = false;
   std::string message;              ///< which exponent has not converged, and what to do
   double begin = 0.0;               ///< [s] the time from which the averages count

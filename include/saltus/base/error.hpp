@@ -7,6 +7,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <exception>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -31,6 +32,16 @@ class Error : public std::runtime_error {
 class ModelError : public Error {
  public:
   using Error::Error;
+
+  const char* what() const noexcept override { return longer_ ? longer_->c_str() : Error::what(); }
+  /// What a function of the user threw, if that is behind this error; otherwise null.
+  const std::exception_ptr& cause() const noexcept { return cause_; }
+  /// Adds a sentence to the message, and the exception behind this error.
+  void explain(const std::string& more, std::exception_ptr cause);
+
+ private:
+  std::shared_ptr<const std::string> longer_;  // shared: a copy does not throw
+  std::exception_ptr cause_;
 };
 
 /// The run could not continue. Carries the time reached, the block path and the partial results.

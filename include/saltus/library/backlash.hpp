@@ -3,7 +3,8 @@
 // in: u; in_rate: du/dt; out: y; out_rate: dy/dt, 0 or du/dt. All scalar; u is continuous, such as
 // the position of a shaft whose speed is in_rate. Parameter "width" > 0, the whole play. The
 // contact and the turn are located as events. If u starts outside of the play around
-// initial_output, the run starts in contact, and y moves.
+// initial_output, the run starts in contact, and y moves. A run ends with an error where u comes back
+// to the place of its contact and in_rate has not changed its sign: then it is not the rate of u.
 #pragma once
 
 #include "saltus/library/detail/arguments.hpp"
@@ -23,6 +24,7 @@ class Backlash final : public LeafSystem {
  private:
   void declare_contact(const char* event, double side, ParameterIndex width);
   void declare_turn(ParameterIndex width);
+  void declare_return(ParameterIndex width);
   void declare_outputs(ParameterIndex width);
 };
 

@@ -1,9 +1,11 @@
 // ContextEntry: the place of the values with one name in a context.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "saltus/model/context.hpp"
@@ -25,6 +27,9 @@ struct ContextEntry {
 /// The names of the entries that can be written, in the order of the blocks; a long vector has one
 /// name.
 std::vector<std::string> entry_names(const Layout& layout);
+
+/// "x[3]" as ("x", 3); "x" as ("x", none).
+std::pair<std::string_view, std::optional<Index>> split_index(std::string_view name);
 
 /// Throws ModelError for an unknown name, with the nearest one, and for an index out of range.
 ContextEntry find_entry(const Layout& layout, std::string_view name);

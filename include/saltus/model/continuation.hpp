@@ -21,6 +21,14 @@ struct Continuation {
     double error = 0.0, base = 0.0;
     bool operator==(const Guard&) const = default;
   };
+  /// A guard that fired, and that the flow had not taken clearly off zero at its last instant.
+  struct Leaving {
+    int guard = 0;          ///< its number
+    bool waited = false;    ///< whether it began to wait at zero
+    double armed_at = 0.0;  ///< [s] when
+    double clear_at = 0.0;  ///< [s] when the flow has taken it clearly off zero
+    bool operator==(const Leaving&) const = default;
+  };
   /// One Zeno monitor.
   struct Firings {
     std::vector<double> times = {};  ///< [s] of the last firings, latest first; at most four
@@ -44,6 +52,7 @@ struct Continuation {
   std::vector<Firings> firings = {};  ///< of the guards, then of the watched edges
   std::vector<int> edges = {};        ///< watched signals: true (1) or false (0)
   std::vector<Contact> contacts = {};
+  std::vector<Leaving> leaving = {};
   std::vector<std::int64_t> counts = {};  ///< firings of each guard, for max_count
   /// Of each island of a run with the option islands. All other lists are then empty, and `jump` is
   /// the sum.

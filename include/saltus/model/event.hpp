@@ -183,6 +183,10 @@ struct ZeroCrossing {
   /// If true, the reset map is computed at the trigger, and the entries of states that it changes
   /// are written at the execution. If not given, it is false.
   std::optional<bool> use_values_from_trigger_time = {};
+  /// If true, the reset map is not run in a pass in which an earlier event of the leaf has changed its
+  /// discrete state or its mode: of several transitions of a state machine that are due at one time one
+  /// is taken. The event is logged all the same.
+  bool yields = false;
 
   /// Whether its firing writes a state or a mode.
   bool has_effect() const { return reset_map || end_mode; }

@@ -82,6 +82,7 @@ struct GuardGroup {
   std::vector<int> controls = {};  // nodes: it is seen while all of them are true
   List<ReadSlot> reads = {};       // values that may vary while it is constant
   bool stepped = false;            // it may be constant while what it reads varies
+  FollowsTime follows_time = FollowsTime::no;
 
   bool is_crossing() const { return kind == Kind::crossing; }
   bool is_opaque() const { return kind == Kind::opaque; }

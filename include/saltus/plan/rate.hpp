@@ -27,6 +27,10 @@ constexpr Rate own_rate(Reads reads, bool has_x, bool has_z, bool has_modes) {
   return stepwise ? Rate::held : Rate::constant;
 }
 
+/// Whether a value varies while all states are kept, as a Sine does. A called function that does not
+/// say what it reads may do so.
+enum class FollowsTime : signed char { no, perhaps, yes };
+
 constexpr Rate faster(Rate a, Rate b) { return std::max(a, b); }
 
 constexpr const char* to_string(Rate rate) {

@@ -51,6 +51,8 @@ class Diagram(System, _core.Diagram):
 
     def __getitem__(self, name: str) -> System:
         """A block of this diagram by name. ModelError lists the known names."""
+        if not isinstance(name, str):
+            raise TypeError(f"expected the name of a block, such as 'gain', found {name!r}")
         if name not in self._children:
             self.require(name)  # raises
         return self._children[name]

@@ -16,7 +16,9 @@ class Backlash(Block, _core.Backlash):
 
     Inputs: `in`, u, and `in_rate`, du/dt. Outputs: `out`, y, and `out_rate`, dy/dt, which is 0 or
     du/dt. u is continuous, such as the angle of a shaft, and `in_rate` its speed: the contact ends
-    where it changes its sign. The contact and the turn are located as events.
+    where it changes its sign. The contact and the turn are located as events. A run ends with a
+    SimulationError where u is back at the place of its contact and `in_rate` has not changed its
+    sign: then it is not the rate of u, or u jumps.
 
     Parameters
     ----------

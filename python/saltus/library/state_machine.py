@@ -22,6 +22,7 @@ from saltus.library.transitions import (
     events_of,
     order,
     reader,
+    still_due,
 )
 
 __all__ = ["StateMachine", "Transition"]
@@ -136,10 +137,14 @@ class StateMachine(LeafSystem):
         self._declare_start(self._first)
         events = events_of(transitions)
         before: dict[str, list[Condition]] = {state: [] for state in self._states}
+        returns: set[str] = set()  # the states with a transition to themselves so far
         for taken, event in sorted(zip(transitions, events, strict=True), key=order):
             condition = self._condition_of(taken, f"transition '{event}'")
-            self._declare_transition(taken, event, condition, tuple(before[taken.source]))
-            if condition.trigger is None and taken.source != taken.target:
+            first, again = tuple(before[taken.source]), taken.source in returns
+            self._declare_transition(taken, event, condition, first, again)
+            if taken.source == taken.target:
+                returns.add(taken.source)
+            elif condition.trigger is None:
                 before[taken.source].append(condition)
 
     @property
@@ -227,9 +232,16 @@ class StateMachine(LeafSystem):
         return Condition(guard, self._named(f"trigger of {where}", each.trigger), each.after)
 
     def _declare_transition(
-        self, each: Transition, event: str, condition: Condition, first: tuple[Condition, ...]
+        self,
+        each: Transition,
+        event: str,
+        condition: Condition,
+        first: tuple[Condition, ...],
+        again: bool,
     ) -> None:
-        """A transition, which waits behind those that come first."""
+        """Declares a transition that is taken only if none of `first` is due. With `again`, a
+        transition from the source to itself may have been taken before it in the same pass.
+        """
         where, words = f"transition '{event}'", self._words
         source, target = self._at(each.source, where), self._at(each.target, where)
         guard, trigger = condition.guard, condition.trigger
@@ -245,6 +257,8 @@ class StateMachine(LeafSystem):
             taken = state.mode == source  # a transition of a higher priority may have left it
             if trigger is not None and guard is not None:
                 taken = np.logical_and(taken, guard(now))
+            if trigger is None and again:
+                taken = np.logical_and(taken, still_due(condition, now))
             z = after_actions(words, now, leave, enter, target)
             changed = [np.where(taken, *pair) for pair in zip(z, state.discrete_state, strict=True)]
             mode = np.where(taken, target, state.mode)
@@ -259,6 +273,7 @@ class StateMachine(LeafSystem):
         # Within rounding of a zero, a truth would be lost where a chain comes back to it at once.
         fires.__dict__["jumps"] = trigger is None and guard is not None
         edge = {"start_mode": source, "at_start": "ignore"}
+        take.__dict__["yields"] = trigger is not None and again
         self.declare_zero_crossing(
             fires,
             take,

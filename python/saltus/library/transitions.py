@@ -21,6 +21,7 @@ __all__ = [
     "events_of",
     "order",
     "reader",
+    "still_due",
 ]
 
 Action = Callable[..., Mapping[str, Any]]
@@ -114,6 +115,15 @@ def due(active: Any, condition: Condition, first: Sequence[Condition], now: dict
     if isinstance(late, float):  # called: the time in place of a truth says how near that is
         return np.where(np.logical_and(active, condition.guard(now)), late, -1.0)
     return np.logical_and(active, condition.holds(now))
+
+
+def still_due(condition: Condition, now: dict[str, Any]) -> Any:
+    """Whether a transition without a trigger that has fired is due still, where one of its source to
+    itself may have been taken before it: the time since the source was entered is 0 then.
+    """
+    if condition.after is not None:
+        return now["since"] >= 0.5 * condition.after
+    return condition.holds(now)
 
 
 def after_actions(

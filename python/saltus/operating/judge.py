@@ -19,8 +19,8 @@ RANK = 1e-8
 of their terms, central differences of 1e-10
 """
 BESIDE = 1e-6
-"""[of the unit of an unknown] how far a second point is, which shows what a curvature does: at a
-double root the Jacobian is zero but for the error of the root, near 1e-8
+"""[of the unit of an unknown] how far a second point is, which shows what a curvature does. At a
+double root the Jacobian is as small as the error of the root, near 1e-8
 """
 MARGIN = 1e-7
 """[of the largest entry of A] a real part below it has no sign: a double eigenvalue has an error of

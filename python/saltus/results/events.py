@@ -178,6 +178,8 @@ class EventLog(Sequence[Event]):
         kinds = FIRINGS if kind is None else (kind,)
         if name is None:
             return np.array([e.time for e in self if e.kind in kinds])
+        if not isinstance(name, str):
+            raise TypeError(f"expected the name of an event, such as 'ball.bounce', found {name!r}")
         times = self._record.event_times(name, kind)  # refuses an unknown name
         if self._rows == range(self._record.event_count):
             return times

@@ -22,6 +22,8 @@ class _Outputs(dict[str, np.ndarray]):
     """Recorded signals by name; an unknown name is answered with the known names."""
 
     def __missing__(self, name: str) -> np.ndarray:
+        if not isinstance(name, str):
+            raise TypeError(f"expected the name of a recorded signal, found {name!r}")
         known = _core.known_names(name, list(self))
         how = known if len(self) else "; give the run recorded_signals={'name': 'block.port'}"
         raise ModelError(f"nothing was recorded under {name!r}{how}")

@@ -302,12 +302,16 @@ class _Maker:
 
     def event_input(self, path: Path, name: str, value: Any) -> None:
         value = table_at(path, value, "{ set = { v = 'v + weight' } }")
-        require_keys(path, value, ("set",), ("set",))
-        with self.scope.with_weight(path):
+        require_keys(path, value, ("set", "size"), ("set",))
+        size = whole_at((*path, "size"), value.get("size", 1))
+        with self.scope.with_delivery(path, "size" in value):
             effect, read = self.effect(path, value)
         inputs = self.scope.inputs_of(read)
         self.leaf.declare_event_input(
-            self.scope.function(effect, inputs, read, (WEIGHT,)), name=name, requires_inputs=inputs
+            self.scope.function(effect, inputs, read, (WEIGHT,)),
+            name=name,
+            size=size,
+            requires_inputs=inputs,
         )
 
     def update(self, path: Path, name: str, value: Any) -> None:

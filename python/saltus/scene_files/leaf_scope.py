@@ -26,6 +26,8 @@ __all__ = ["WEIGHT", "LeafScope"]
 
 WEIGHT = "weight"
 """the word for the weight of an event wire"""
+ENTRY = "entry"
+"""the word for the entry of an event input to which a wire leads"""
 
 
 @dataclass
@@ -130,19 +132,23 @@ class LeafScope:
         return [i for i, name in enumerate(self.inputs) if name in names]
 
     @contextmanager
-    def with_weight(self, path: Path) -> Iterator[None]:
-        """Inside of it expressions read `weight`, that of the event wire of a delivery. Wrong if
-        the leaf gives the name another meaning.
+    def with_delivery(self, path: Path, entries: bool) -> Iterator[None]:
+        """Inside of it expressions read `weight`, that of the event wire of a delivery, and with
+        `entries` also `entry`, the position of the entry to which the wire leads. Wrong if the leaf
+        gives such a name another meaning.
         """
-        if WEIGHT in self.taken:
-            raise Wrong(
-                path,
-                f"'{WEIGHT}' is that of the event wire in 'event_inputs'; choose another name for "
-                f"the {self.taken[WEIGHT]} '{WEIGHT}'",
-            )
-        self.words[WEIGHT] = Word(WEIGHT)
+        words = {WEIGHT: Word(WEIGHT)} | ({ENTRY: Word("state.entry")} if entries else {})
+        for name in words:
+            if name in self.taken:
+                raise Wrong(
+                    path,
+                    f"'{name}' is that of the event wire in 'event_inputs'; choose another name "
+                    f"for the {self.taken[name]} '{name}'",
+                )
+        self.words.update(words)
         yield
-        del self.words[WEIGHT]
+        for name in words:
+            del self.words[name]
 
     def function(
         self,

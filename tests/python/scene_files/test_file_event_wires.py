@@ -58,6 +58,62 @@ def test_the_reset_reads_the_inputs_of_its_block():
     assert ends(loads(SCENE.replace("value = 0.0", "value = 3.0")))["digits.z"] == 455.0
 
 
+ENTRIES = """
+version = 1
+event_wires = [
+  "bell.rings -> sums.in[0]",
+  { wire = "bell.rings -> sums.in[2], sums.in[2]", weight = 5.0, delay = 0.25 },
+]
+[systems.bell.updates.rings]
+at = [1.0, 2.0]
+set = { n = "n + 1" }
+[systems.bell.discrete]
+n = 0
+[systems.sums.discrete]
+a = 0
+b = 0
+last = -1
+[systems.sums.event_inputs.in]
+size = 3
+set = { a = "a + (weight if entry == 0 else 0)", b = "where(entry == 2, b + weight, b)", last = "entry" }
+[blocks]
+bell = { system = "bell" }
+sums = { system = "sums" }
+[run]
+until = 2.125
+record = ["sums.a", "sums.b", "sums.last"]
+"""
+
+
+@pytest.mark.parametrize("python", ["traced", "called"])
+def test_an_event_input_of_a_size_knows_the_entry_of_the_wire(python):
+    # two rings at entry 0, and twice 5 at entry 2 behind the first of them
+    scene = loads(ENTRIES)
+    assert ends(scene, python=python) == {"sums.a": 2.0, "sums.b": 10.0, "sums.last": 0.0}
+    jsonschema.Draft202012Validator(schema()).validate(json.loads(dumps(scene, "json")))
+    again = loads(dumps(scene, "toml"))
+    assert again == scene and bits(again.simulate()) == bits(scene.simulate())
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("size = 3", "size = 0", "expected a whole number from 1 on, found 0"),
+        (
+            "size = 3",
+            "size = 2",
+            "event input 'in' has 2 entries; expected the number of one, 0 to 1, found 2",
+        ),
+        ("size = 3", "", "'entry'"),
+        ("last = -1", "entry = -1", "choose another name for the state 'entry'"),
+    ],
+)
+def test_mistakes_with_a_size(old, new, words):
+    with pytest.raises(SceneError) as caught:
+        loads(ENTRIES.replace(old, new))
+    assert words in str(caught.value)
+
+
 @pytest.mark.parametrize("kind", ["toml", "json"])
 def test_it_is_written_and_read_again(kind):
     scene = loads(SCENE)
@@ -169,8 +225,8 @@ MISTAKES = {
     "an unknown state": ('set = { z =', 'set = { zz =', 22, 9, ["unknown state 'zz'"]),
     "an unknown name": ('10 * z + weight', '10 * z + wait', 22, 23, ["unknown name 'wait'", "weight"]),
     "no set": ('set = { z = "10 * z + weight + u" }', "", 21, 30, ["expected a key 'set'"]),
-    "an option that is none": ('set = { z = "10 * z + weight + u" }', 'size = 3', 22, 1,
-                               ["unknown key 'size'"]),
+    "an option that is none": ('set = { z = "10 * z + weight + u" }', 'sizes = 3', 22, 1,
+                               ["unknown key 'sizes'"]),
     "weight as a state": ('discrete = { z = 0 }', 'discrete = { z = 0, weight = 1 }', 21, 30,
                           ["choose another name for the state 'weight'"]),
     "below a header": ("[run]", '[run]\nevent_wires = ["bell -> digits"]', 29, 1,

@@ -286,3 +286,23 @@ def test_4_4_a_ball_rests_on_a_table_of_its_own_block_that_swings_on(holds, mirr
     # oscillation adds up the errors of its steps: hundreds, each within the tolerance.
     at_end = [0.1 * np.cos(6 * w), -0.1 * w * np.sin(6 * w)]
     assert results.context.continuous_state == pytest.approx(np.tile(at_end, 2), abs=1e-7)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("islands", [False, True])
+@pytest.mark.parametrize("reset", [None, lambda t, state: state.with_discrete_state([1.0])])
+def test_4_7_edge_detection_of_a_number_that_varies_chatters(method, islands, reset):
+    leaf = saltus.LeafSystem(name="tank")
+    leaf.declare_continuous_state([0.0], ode=lambda t, state: [1.0])
+    leaf.declare_discrete_state([0.0])
+    leaf.declare_zero_crossing(
+        lambda t, state: state.continuous_state[0] - 0.7, reset, "full", "edge_detection"
+    )
+    results = saltus.simulate(
+        leaf, (0.0, 1.0), ode_solver_method=method, islands=islands, throw=False
+    )
+    assert results.status == "chattering"
+    assert "guard 'tank.full' fired 1000 times" in results.message
+    assert "crosses_zero" in results.message
+    with pytest.raises(saltus.SimulationError, match="its direction is edge_detection"):
+        saltus.simulate(leaf, (0.0, 1.0), ode_solver_method=method, islands=islands)

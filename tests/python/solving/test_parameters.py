@@ -26,7 +26,7 @@ def test_guards_resets_and_jacobians_take_what_they_have_arguments_for():
     )
     run = saltus.solve(
         lambda t, x, g: [x[1], -g],
-        (0, 2.5),
+        (0, 2.4),
         [5.0, 0.0],
         parameters={"g": 10.0, "e": 0.5},
         events=floor,

@@ -42,8 +42,8 @@ struct LeastSquaresFound {
 /// Lecture Notes in Mathematics 630 (1978) 105), and lambda by the ratio of the reductions that are
 /// found and predicted (H. Nielsen, report IMM-REP-1999-05, Technical University of Denmark).
 ///
-/// A value at a bound stays there while the gradient points outwards, and one that a step takes
-/// beyond a bound is put on it and the others are solved for again: the projection of
+/// A value at a bound stays there while the gradient points outwards. A value that a step would take
+/// beyond a bound is put on the bound, and the others are solved for again. This is the projection of
 /// D. Bertsekas, SIAM J. Control Optim. 20 (1982) 221. Eigen's own LevenbergMarquardt has no bounds,
 /// and ends where an evaluation fails.
 LeastSquaresFound least_squares(const LeastSquares& problem, const Eigen::VectorXd& start,

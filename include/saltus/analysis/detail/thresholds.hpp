@@ -28,8 +28,8 @@ inline constexpr double unknown_noise = 1e-12;
 /// [of the largest singular value] a smaller one is zero: exact derivatives have an error of 1e-15
 /// of their terms, central differences of 1e-10.
 inline constexpr double rank_of_point = 1e-8;
-/// [of the unit of an unknown] the distance of a second point, which shows what a curvature does: at
-/// a double root the Jacobian is zero but for the error of the root, near 1e-8.
+/// [of the unit of an unknown] the distance of a second point, which shows what a curvature does. At
+/// a double root the Jacobian is as small as the error of the root, near 1e-8.
 inline constexpr double beside_point = 1e-6;
 /// [of the largest entry of A] a real part below it has no sign: a double eigenvalue has an error of
 /// the square root of the rounding.

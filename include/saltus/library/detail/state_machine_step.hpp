@@ -42,6 +42,7 @@ struct StateMachineStep {
   std::vector<StateMachineAction> leave;  ///< those of the exit and of the transition
   StateMachineAction entry;
   std::vector<StateMachineDue> before;  ///< of the transitions that are taken in place of this one
+  bool behind_return;  ///< whether a transition of the source to itself comes before it
 
   /// The guard of a transition without a trigger: not below zero where that is due. It is below
   /// zero in all other states, so that the pass that enters the state carries it across zero if it
@@ -49,6 +50,9 @@ struct StateMachineStep {
   /// the transition would be lost. It is below zero, too, where one of `before` is due. It jumps
   /// over zero: within rounding of zero, a chain that comes back to the source would be lost.
   double residual(const At& at) const;
+  /// Whether it is due still, where a transition of the source to itself may have been taken before
+  /// it in this pass.
+  bool is_still_due(const StateMachineValues& now) const;
   void take(const At& at, Next& next) const;
   ZeroCrossing crossing(const std::string& event) const;
 };

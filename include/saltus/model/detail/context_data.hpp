@@ -121,6 +121,12 @@ void fields_of(Archive& archive, Continuation& c) {
     one.field("pressed_on", contact.pressed_on);
     one.field("look_ahead", contact.look_ahead);
   });
+  archive.optional_records("leaving", c.leaving, [](auto& one, auto& guard) {
+    one.field("guard", guard.guard);
+    one.field("waited", guard.waited);
+    one.field("armed_at", guard.armed_at);
+    one.field("clear_at", guard.clear_at);
+  });
   archive.field("counts", c.counts);
   archive.optional("settled", c.settled);
   archive.optional_records("islands", c.islands,

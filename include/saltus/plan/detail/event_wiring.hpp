@@ -24,6 +24,8 @@ struct EventOrigin {
   int leaf, event, entry;
 };
 EventOrigin event_origin_of(const Plan& plan, int source);
+/// Its name.
+const std::string& event_name(const Plan& plan, int source);
 
 /// Sorts the wires by source and delay, after guards and schedule are complete. A wire from an event
 /// that never happens is left out.

@@ -8,6 +8,7 @@
 
 #include "saltus/base/list.hpp"
 #include "saltus/model/computed_parameter.hpp"
+#include "saltus/model/detail/shape_guess.hpp"
 #include "saltus/plan/detail/controls.hpp"
 #include "saltus/plan/detail/event_wiring.hpp"
 #include "saltus/plan/detail/lists.hpp"
@@ -244,11 +245,28 @@ inline Plan flatten(const System& system, const Replacements& replacements = {})
   return plan;
 }
 
+/// Adds to an error about shapes which function threw when it was called for the shape of an output:
+/// the shape that counted for it may be what does not fit.
+inline void explain_shapes(const Plan& plan, ModelError& error) {
+  for (const Node& node : plan.nodes) {
+    if (node.relation || !plan.output_of(node).shape_rule) continue;
+    std::vector<Shape> inputs;
+    for (const int input : plan.leaf_of(node).inputs)
+      inputs.push_back(plan.node(input).shaped ? plan.node(input).shape : Shape{0, false});
+    if (explain_by_guess(error, [&] { plan.output_of(node).shape_rule(inputs); })) return;
+  }
+}
+
 /// Finds shapes and places. It runs after the order is known, so that an algebraic loop is reported
 /// as a loop.
 inline void lay_out(Plan& plan) {
-  add_shapes(plan);
-  check_shapes(plan);
+  try {
+    add_shapes(plan);
+    check_shapes(plan);
+  } catch (ModelError& error) {
+    explain_shapes(plan, error);
+    throw;
+  }
   add_places(plan);
   if (plan.event_wires.any()) place_weight(plan);
 }

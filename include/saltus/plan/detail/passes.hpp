@@ -14,6 +14,10 @@ Roots find_shapes_and_rates(Plan& plan);
 /// distance of the looks.
 void add_reads_of_guards(Plan& plan);
 
+/// Finds which guards follow the time itself: the steps of a method, which are chosen for the states,
+/// say nothing of them.
+void find_guards_that_follow_time(Plan& plan);
+
 /// The other passes: needs, guards, edges, schedule, fused formulas.
 std::shared_ptr<const Plan> completed(Plan plan, const Roots& roots);
 

@@ -69,8 +69,7 @@ class Calendar {
   /// may be there but for rounding; otherwise t.
   double stop_at_root(double from, double t) const {
     const double event = next();
-    const double near = std::max(thresholds::beside_stop * (event - from),
-                                 thresholds::stop_roundings * thresholds::eps * std::abs(event));
+    const double near = std::max(thresholds::beside_stop * (event - from), resolution(event));
     return std::isfinite(event) && t < event && event - t <= near ? event : t;
   }
 
@@ -93,6 +92,11 @@ class Calendar {
   /// [s] Times that differ by rounding only are one instant: 3 * 0.1 and 0.3.
   static double slack(double t) {
     return thresholds::tick_roundings * thresholds::eps * std::abs(t);
+  }
+
+  /// [s] A crossing that is nearer to a stop at t is there: it is apart by rounding alone.
+  static double resolution(double t) {
+    return thresholds::stop_roundings * thresholds::eps * std::abs(t);
   }
 
   /// Whether no instant that begins at t [s] reaches `later` [s].

@@ -216,19 +216,32 @@ Arming decide_fired(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
 ///
 ///     mode just entered, with an effect, headed for its firing    fire: both modes lead to the
 ///     side, and the flow of the mode before led the other way     surface (4.7)
-///     otherwise, fired                                            decide_fired
+///     otherwise, fired, also since its mode was entered           decide_fired
 ///     otherwise                                                   decide_at_zero
 ///
 /// A hop lower than the tolerance begins on one side, and the look ahead sees it end on the other.
 /// Therefore in a mode just entered the slope decides against the side, if it is sure.
 template <class Ask>
 Arming decide_crossing(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
-  if (guard.entered && !guard.fired && flow.side * ask.slope() < 0.0 && ask.is_slope_sure())
-    flow.side = -flow.side;
+  const bool entered = guard.entered && !guard.fired;
+  if (entered && flow.side * ask.slope() < 0.0 && ask.is_slope_sure()) flow.side = -flow.side;
   const bool its_side = guard.either() ? flow.side != 0 : flow.side == firing_side(guard.direction);
-  if (guard.entered && guard.effect && its_side && ask.turned_round(flow.side))
+  if (entered && guard.effect && its_side && ask.turned_round(flow.side))
     return {.then = Arming::Then::fire, .from = -flow.side};
   return guard.fired ? decide_fired(guard, flow, ask) : decide_at_zero(guard, flow, ask);
+}
+
+/// Whether a root of a guard that has not been clearly off zero since it was armed on the side `from` is false.
+/// `value` is its value there; the flow was followed over its flight at most.
+///
+///     flow to        value              false root
+///     side `from`    -                  yes: it still leaves zero
+///     other side     -                  no: it has come back
+///     none           within its error   yes: nothing shows that it has left zero
+///     none           beyond it          no
+inline bool is_false_root(int from, double value, FlowSide flow) {
+  if (flow.side != 0) return flow.side == from;
+  return std::abs(value) <= flow.error;
 }
 
 /// Whether a guard was merely passed through: the flow before the reset had the same direction, and

@@ -15,6 +15,8 @@ namespace saltus {
 
 /// The batch of wires of a pending delivery; -1 if the plan has no such wires.
 int batch_of(const Plan& plan, const PendingDelivery& one);
+/// The inverse: a batch of wires whose deliveries are due at this time [s].
+PendingDelivery pending_of(const Plan& plan, int batch, double due);
 /// Throws ModelError for a pending delivery that no wire of the plan makes.
 [[noreturn]] void throw_no_such_wire(const Plan& plan, const PendingDelivery& one);
 
@@ -58,7 +60,6 @@ class Deliveries {
   const Plan& plan() const { return machine_->plan(); }
   const EventWires& wires() const { return plan().event_wires; }
   void fire(int source);
-  const std::string& name_of(int batch) const;
   double now() const;
 
   Machine* machine_;

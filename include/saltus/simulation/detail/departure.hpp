@@ -21,10 +21,12 @@ class Departure : public FlowProbe {
   Departure(Machine& machine, const SimulatorOptions& options)
       : FlowProbe(machine, options), longest_step_(options.max_minor_step_size) {}
 
-  /// The side to which the flow takes a guard (0: none), and the rounding bound used to decide it.
+  /// The side to which the flow takes a guard (0: none), the rounding bound used to decide it, and the time [s]
+  /// after which the guard shows its side.
   struct Side {
     int side = 0;
     double rounding = 0.0;
+    double after = 0.0;
   };
 
   /// Sets the point to depart from; `longest` [s] bounds how far ahead it looks.
@@ -162,10 +164,11 @@ class Departure : public FlowProbe {
       const double g = guard_after(d, slot);
       const int side = sign_of(g);
       if (is_expected(side, expected) && is_beyond_doubt(g, error))
-        return result.side = side, result;
+        return result.side = side, result.after = d, result;
       const double rounding = opaque ? 0.0 : rounding_after(d, slot, g);
       result.rounding = std::max(error, rounding);
-      if (std::abs(g) > result.rounding && has_moved(group)) return result.side = side, result;
+      if (std::abs(g) > result.rounding && has_moved(group))
+        return result.side = side, result.after = d, result;
       if (furthest == unknown) furthest = furthest_look(group, d);
       if (std::abs(g) > rounding && !opaque) furthest = longest_;
       if (d * thresholds::look_growth > furthest) return result;

@@ -36,6 +36,7 @@ class Effects {
     const int* end_mode;  // null: none
     Holds::Hold* hold;
     bool reads_before = false;
+    bool yields = false;  // to the events of the leaf that came before in this pass
   };
 
   void run_update(const Action& action, int source);

@@ -6,11 +6,14 @@
 
 namespace saltus {
 
-/// Sets the status that `act` returns. An exception is a failure of the run.
+/// Sets the status that `act` returns. An exception is a failure of the run, or events without end.
 template <class Act>
 void Run::guarded(const Act& act) {
   try {
     results_.status = act();
+  } catch (const ChatteringError& error) {
+    take_accepted();
+    end({Status::chattering, error.block(), error.what()});
   } catch (const SimulationError& error) {
     fail(error.what());
     results_.block = error.block();

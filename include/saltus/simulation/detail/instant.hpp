@@ -50,7 +50,8 @@ class Instant {
   /// there but for rounding are among those that fired at the root. True if guards fire.
   bool meets_stop(double t, double longest);
   /// Whether the guards that fired at a root, which was located at `root` [s], are at zero at t too, within
-  /// their uncertainty. The machine has the state at t.
+  /// their uncertainty. The machine has the state at the root, and the flow leads to t: the step of a
+  /// multistep method ends at the root that it located.
   bool roots_are_at(double t, double root, double longest);
 
   /// Whether something may wait: an execution, or a delivery of an event wire.
@@ -110,12 +111,13 @@ class Instant {
   void run_pass();
   void commit();
   void find_next();
+  bool stays_at_root(std::size_t k) const;
   void look_at_crossing(std::size_t k);
   bool left_zero_beside_root(std::size_t k);
   void continue_beside_root(std::size_t k);
   bool is_untouched(std::size_t k) const;
+  void mark_armed_at(std::size_t k);
   void arm(bool at_start);
-  void mark_armed(std::size_t k);
   void select_guards();
   bool follow_controls();
   void look_at_guards();

@@ -60,6 +60,7 @@ class IslandSchedule {
   void enqueue(std::size_t k);
   bool take_window(const End& end);
   void run_window(const End& end, std::size_t threads);
+  void close_window(End& end);
   void note_end(std::size_t k, End& end);
   bool has_passed(double t) const;
   void finish(End& end);

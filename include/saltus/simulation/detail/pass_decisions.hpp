@@ -116,26 +116,30 @@ inline double value_uncertainty(double rounding, double slope, double t) {
   return rounding + resolution * std::abs(slope);
 }
 
-/// Whether the flow has a say about a root of a guard that was within its error when integration
-/// began: then the root may be rounding.
+/// Whether the flow has a say about a root of a guard that fired before: then the root may be rounding. It may be
+/// where the guard was armed within its error and has not left it, or where the root follows so soon that the flow
+/// has not taken the guard clearly off zero.
 ///
-///     armed within its error   monitor   edge_detection   opaque   at zero since then   asked
-///     no                       -         -                -        -                    no
-///     yes                      yes       -                -        -                    no
-///     yes                      no        yes              -        -                    no
-///     yes                      no        no               yes      -                    yes
-///     yes                      no        no               no       yes                  yes
-///     yes                      no        no               no       no: a true root      no
+///     monitor   edge_detection   soon   armed within its error   opaque   at zero since then   asked
+///     yes       -                -      -                        -        -                    no
+///     no        yes              -      -                        -        -                    no
+///     no        no               yes    -                        -        -                    yes
+///     no        no               no     no                       -        -                    no
+///     no        no               no     yes                      yes      -                    yes
+///     no        no               no     yes                      no       yes                  yes
+///     no        no               no     yes                      no       no: a true root      no
 struct RootFacts {
   bool armed_at_zero = false;  ///< within its error
   bool monitor = false;
   bool edge = false;  ///< direction edge_detection: its zero has no meaning
   bool opaque = false;
   bool at_zero = false;  ///< it has not been clearly off zero since then
+  bool soon = false;     ///< within the time in which the flow takes it clearly off zero
 };
 
 constexpr bool may_be_rounding(const RootFacts& root) {
-  return root.armed_at_zero && !root.monitor && !root.edge && (root.opaque || root.at_zero);
+  if (root.monitor || root.edge) return false;
+  return root.soon || (root.armed_at_zero && (root.opaque || root.at_zero));
 }
 
 }  // namespace saltus

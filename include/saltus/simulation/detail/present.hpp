@@ -50,6 +50,7 @@ struct GuardNow {
   double location = 0.0;  ///< error of its value by the location of its root; 0 where it jumped
   /// [s] from its last firing to this one; NaN if it was clearly off zero in between
   double flight = std::numeric_limits<double>::quiet_NaN();
+  double clear_after = 0.0;         ///< [s] the flow takes it clearly off zero within this time
   int flips = 0;                    ///< flips of a relation in this instant
   double jump = 0.0;                ///< the size of its jump at its root; 0: none
   double before = 0.0;              ///< edge_detection: its value before its root
@@ -98,6 +99,11 @@ class Present {
     GuardNow& now = note(k);
     now.fired = now.fired_in_pass = true;
     fired_in_pass_.push_back(k);
+  }
+  /// The mode of guard k is entered. What it did in an earlier stay in this mode, in the same instant, is over.
+  void enters(std::size_t k) {
+    GuardNow& now = note(k);
+    now.entered = true, now.fired = false;
   }
   /// Guard k did not fire: it only seemed to.
   void take_back(std::size_t k) {

@@ -52,6 +52,8 @@ class Transition {
     const PlanLeaf& of = machine_->plan().leaf(leaf);
     return {leaf, entry, x_next_.data() + of.x, z_next_.data() + of.z, modes_next_[leaf]};
   }
+  /// Whether the functions that ran in this pass have changed the discrete state or the mode of a leaf.
+  bool changed_in_pass(int leaf) const;
   /// Runs a reset map or an update of a leaf. It sees the values that the earlier ones of this pass
   /// wrote to the states and the mode of its leaf (3.2, 3.3). Returns whether it had an effect: it
   /// wrote a state, or changed the mode.

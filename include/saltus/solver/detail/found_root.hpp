@@ -23,6 +23,7 @@ class FoundRoot : protected DipSearch {
     for (const std::size_t k : crossed_) {
       const Guard& guard = (*guards_)[k];
       if (!std::isfinite(high_[k])) throw_not_finite(k, t0_ + u);
+      if (guard.direction == Direction::edge_detection) note_edge(k, u);
       const Firing firing{static_cast<int>(k), guard.side, guard.at_zero(), jump_[k]};
       if (guard.monitor)
         pass_monitor(firing, u);
@@ -84,6 +85,30 @@ class FoundRoot : protected DipSearch {
     throw SimulationError(text("t = ", t, " s: guard '", group.name,
                                "' is not finite (NaN or Inf); check it at this state"),
                           t, plan.leaves[group.leaf].path);
+  }
+
+  /// The search of a monitor whose value varies all the time would not come to an end.
+  void note_edge(std::size_t k, double u) {
+    const double now = high_[k], before = (*guards_)[k].base;
+    const EdgeSeries::Firing firing{t0_ + u, end_at_, std::abs(now - before),
+                                    std::max(std::abs(now), std::abs(before))};
+    if (guards_->edge(k, firing)) throw_endless(k, t0_ + u);
+  }
+
+  [[noreturn]] void throw_endless(std::size_t k, double t) const {
+    const Plan& plan = machine_->plan();
+    const GuardGroup& group = plan.guards[(*guards_)[k].group];
+    const std::string& block = plan.leaves[group.leaf].path;
+    const EdgeSeries& edges = (*guards_)[k].edges;
+    throw ChatteringError(
+        text("t = ", t, " s: guard '", group.name, "' fired ", edges.count, " times in ",
+             t - edges.since,
+             " s: its direction is edge_detection, which fires at each change of its value, and "
+             "this "
+             "value varies all the time. edge_detection is for truths and held signals; give the "
+             "guard the direction crosses_zero, positive_then_non_positive or "
+             "negative_then_non_negative, or let it return a truth"),
+        t, block);
   }
 
   /// Moves a monitor to its other side. It is at zero until it is clearly off.

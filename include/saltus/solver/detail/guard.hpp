@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "saltus/model/event.hpp"
+#include "saltus/plan/rate.hpp"
+#include "saltus/solver/detail/edge_series.hpp"
 
 namespace saltus {
 
@@ -38,8 +40,9 @@ struct GuardTraits {
   bool monitor = false;  ///< located and logged, stops nothing
   bool jumps = false;    ///< takes only two values: located by bisection
   bool stepped = false;  ///< may be constant while the state varies
-  int group = -1;        ///< index in the plan's list of guards
-  int entry = 0;         ///< index in that group
+  FollowsTime follows_time = FollowsTime::no;
+  int group = -1;  ///< index in the plan's list of guards
+  int entry = 0;   ///< index in that group
 };
 
 /// The record of one guard. GuardSet is its only writer.
@@ -60,6 +63,9 @@ struct Guard : GuardTraits {
   double error = 0.0;           ///< the guard is at zero within it
   double base = 0.0;            ///< edge_detection: fires at any other value
   double armed_at = not_armed;  ///< [s] when it began to wait after a firing
+  double clear_at = not_armed;  ///< [s] when the flow has taken it clearly off zero after that
+  double doubted = 0.0;         ///< its error at its last false root since then
+  EdgeSeries edges = {};        ///< edge_detection: its last firings inside steps
 
   /// The direction in which it is watched: the direction of the lift while its block is carried.
   Direction watched_direction() const {

@@ -57,8 +57,10 @@ class GuardSearch : private PacedSearch {
       std::copy_n(part.guards, high_.size(), high_.data());
     else if (!std::exchange(looked_, false))
       look(part.to, part.end, interpolate, high_);
-    passes_ = scans() && part.points == nullptr;
-    const bool skips = scans() && out_of_reach(part.to - part.from);
+    const bool timed = follow_time();
+    passes_ = scans() && part.points == nullptr && !timed;
+    const double length = part.to - part.from;
+    const bool skips = scans() && (!timed || shows(length)) && out_of_reach(length);
     if (!skips || skipped_ >= patience_) return find_inside(part, skips, interpolate);
     ++skipped_;
     shift_all(part.from, part.to);
@@ -121,6 +123,7 @@ class GuardSearch : private PacedSearch {
       from = early;
     }
     begin_pieces(from, length, interpolate);
+    if (passes_) passes_ = !follow_time();  // it may have been found
     for (int piece = 1;; ++piece) {
       const bool last = piece == pieces;
       if (last) {
@@ -151,7 +154,7 @@ class GuardSearch : private PacedSearch {
   const std::vector<double>* points_ = nullptr;  // where to look inside; null: evenly
   int patience_ = thresholds::least_patience;    // allowed steps in a row without a look inside
   int skipped_ = thresholds::least_patience;     // steps in a row without a look inside
-  bool passes_ = false;  // `passes` may stand for `find`: even points, and no guard that jumps
+  bool passes_ = false;  // `passes` may stand for `find`: even points, no guard follows the time
   bool looked_ = false;  // high_ has the guards at the end of a step that `passes` did not exclude
 };
 

@@ -28,10 +28,13 @@ struct LocatedGuards {
   std::vector<int> groups;          ///< the groups of these slots, in the order of the plan
   std::vector<LookedRead> reads;    ///< what may vary while some of them are constant
   std::vector<std::size_t> looked;  ///< the slots of these guards and of what they read
+  FollowsTime follow_time =
+      FollowsTime::no;  ///< what is known of the guard that does so most surely
 
-  void add(std::size_t slot, int group) {
+  void add(std::size_t slot, const GuardTraits& guard) {
     slots.push_back(slot), looked.push_back(slot);
-    if (groups.empty() || groups.back() != group) groups.push_back(group);
+    if (groups.empty() || groups.back() != guard.group) groups.push_back(guard.group);
+    follow_time = std::max(follow_time, guard.follows_time);
   }
   void add_reads(const GuardGroup& group) {
     const auto first = static_cast<std::size_t>(group.slot);
@@ -41,7 +44,10 @@ struct LocatedGuards {
       looked.push_back(slot);
     }
   }
-  void clear() { slots.clear(), groups.clear(), reads.clear(), looked.clear(); }
+  void clear() {
+    slots.clear(), groups.clear(), reads.clear(), looked.clear();
+    follow_time = FollowsTime::no;
+  }
 };
 
 /// The guards that can fire in the present modes: all, the guards that stop the solver, and the
@@ -58,7 +64,7 @@ struct ActiveGuards {
 
   void add(std::size_t slot, const GuardTraits& guard, bool crossing = true) {
     all.push_back(slot), crossing_count += crossing;
-    (guard.monitor ? monitors : stopping).add(slot, guard.group);
+    (guard.monitor ? monitors : stopping).add(slot, guard);
   }
   void add_reads(const GuardGroup& group) {
     (group.monitor ? monitors : stopping).add_reads(group);
@@ -133,8 +139,16 @@ class GuardSet {
   void fired(std::size_t k, int from) { guards_[k].came_from = static_cast<signed char>(from); }
   /// Whether a relation keeps its truth from now on.
   void keep_truth(std::size_t k, bool yes) { guards_[k].rests = yes; }
-  /// Sets the time at which the guard began to wait after a firing; NaN for none.
-  void mark_armed_at(std::size_t k, double t) { guards_[k].armed_at = t; }
+  /// Sets the time at which the guard began to wait after a firing, and the time at which the flow has taken it
+  /// clearly off zero; NaN for none.
+  void mark_armed_at(std::size_t k, double t, double clear_at) {
+    guards_[k].armed_at = t, guards_[k].clear_at = clear_at, guards_[k].doubted = 0.0;
+  }
+  /// A root was false: the guard waits at zero within `error` for `side`.
+  void doubt(std::size_t k, int side, double error) {
+    wait(k, side, error);
+    guards_[k].doubted = error;
+  }
 
   /// A step is searched: `keep` remembers the records once before they are written, `restore`
   /// undoes what was written since.
@@ -166,6 +180,10 @@ class GuardSet {
     const int now = guard.sign(value);
     if (now != 0 || guard.direction == Direction::edge_detection) guard.settle(now);
   }
+  /// An edge that was located; true if the guard fires without end.
+  bool edge(std::size_t k, const EdgeSeries::Firing& firing) {
+    return guards_[k].edges.is_endless(firing);
+  }
   /// A guard that waits was clearly on its side at a look: it becomes armed.
   void leave_zero(std::size_t k) { guards_[k].settle(guards_[k].side); }
   /// A monitor that crossed is at zero on its new side.
@@ -191,5 +209,7 @@ class GuardSet {
 // The part of a continuation that a run needs to continue with the same records.
 std::vector<Continuation::Guard> records_of(const GuardSet& guards);
 void load_records(GuardSet& guards, const std::vector<Continuation::Guard>& from);
+std::vector<Continuation::Leaving> leaving_of(const GuardSet& guards);
+void load_leaving(GuardSet& guards, const std::vector<Continuation::Leaving>& from);
 
 }  // namespace saltus

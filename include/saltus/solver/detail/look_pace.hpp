@@ -65,6 +65,18 @@ class LookPace {
   void accept(double length, bool slow) {
     if (slow && piece_ < all) piece_ = std::max(piece_, 2.0 * length);
   }
+  /// Whether a step of this length [s] may pass without a look inside, where a guard follows the time.
+  /// A method chooses its steps for the states, so they say nothing of such a guard: only the looks in
+  /// a step that was hardly shorter do.
+  bool shows(double length) const {
+    return length <= thresholds::seen_growth * seen_ && !is_finer_than(length);
+  }
+  /// Whether the looks of a step have to be chosen anew, where a guard follows the time: before a
+  /// restart no look says how fast the guard is after it, and where looks are as far apart as the even
+  /// ones they may have the period of the guard.
+  bool is_doubtful(double even, bool restarted) const { return restarted || !is_finer_than(even); }
+  /// A step of this length [s] is looked into.
+  void see(double length) { seen_ = length; }
   /// A step that is looked into begins, with evenly spaced looks so far [s] apart, and no piece
   /// shorter than `least` [s]. Returns whether its looks are much further apart than any before: then
   /// no look has shown yet how fast the guards are for them.
@@ -79,6 +91,7 @@ class LookPace {
   static constexpr double all = std::numeric_limits<double>::infinity();
   double piece_ = all;   // [s]
   double widest_ = 0.0;  // [s] between the looks of a step
+  double seen_ = 0.0;    // [s] length of the last step that was looked into
 };
 
 /// Whether a guard counts for the distance of the looks. A guard that jumps, or whose values are

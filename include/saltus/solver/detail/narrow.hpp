@@ -103,6 +103,7 @@ class Narrower {
   std::vector<std::pair<double, double>> limits_;  // of the watched guards
   std::vector<std::size_t> few_;                   // the slots that are narrowed; empty: all
   double t0_ = 0.0;
+  List<double> x_;  // the state at the last look inside a step
 
  private:
   struct Bracket {
@@ -268,7 +269,6 @@ class Narrower {
 
   std::vector<int> few_groups_;  // the groups of few_
   bool no_others_ = false;       // all active guards are located together
-  List<double> x_;
 };
 
 }  // namespace saltus

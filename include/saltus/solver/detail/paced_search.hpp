@@ -8,27 +8,33 @@
 #include "saltus/base/list.hpp"
 #include "saltus/solver/detail/look_pace.hpp"
 #include "saltus/solver/detail/piece_judge.hpp"
-#include "saltus/solver/detail/piece_search.hpp"
 #include "saltus/solver/detail/search_thresholds.hpp"
 #include "saltus/solver/detail/thresholds.hpp"
+#include "saltus/solver/detail/timed_search.hpp"
 
 namespace saltus {
 
 /// Controls the distance of the looks as a method controls its steps: a piece that may hide
 /// something is halved, and the pieces grow again where the guards are slow.
-class PacedSearch : protected PieceSearch {
+class PacedSearch : protected TimedSearch {
  protected:
   PacedSearch(Machine& machine, GuardSet& guards, const LocatedGuards& located)
-      : PieceSearch(machine, guards, located), judge_(guards, located, machine.plan().look_slots) {
-    for (auto* values : {&before_, &at_end_, &begin_.last, &begin_.earlier, &begin_.oldest})
+      : TimedSearch(machine, guards, located), judge_(guards, located, machine.plan().look_slots) {
+    for (auto* values : {&at_end_, &begin_.last, &begin_.earlier, &begin_.oldest})
       values->assign(machine.plan().look_slots, 1.0);
   }
 
-  void begin_run() { pace_.begin_run(); }
+  void begin_run() { pace_.begin_run(), probe_ = {}; }
+
+  bool shows(double length) const { return pace_.shows(length); }
 
   /// Keeps what outlives a restart: the pace, which guards count, and how fast they move.
-  void keep() { kept_pace_ = pace_, kept_judge_ = judge_, kept_speed_ = speed_; }
-  void restore() { pace_ = kept_pace_, judge_ = kept_judge_, speed_ = kept_speed_; }
+  void keep() {
+    kept_pace_ = pace_, kept_judge_ = judge_, kept_speed_ = speed_, kept_probe_ = probe_;
+  }
+  void restore() {
+    pace_ = kept_pace_, judge_ = kept_judge_, speed_ = kept_speed_, probe_ = kept_probe_;
+  }
 
   /// The pieces of a step begin at `from`; `even` [s] is the distance of evenly spaced looks.
   template <class Interpolate>
@@ -43,7 +49,9 @@ class PacedSearch : protected PieceSearch {
     if (!refines_) return;
     even_ = even, records_may_differ_ = false;
     least_ = std::max(even * thresholds::finest_piece, thresholds::look_roundings * resolution_);
-    const bool unknown = pace_.begin_step(even, least_);
+    pace_.see(end_at_ - from);
+    bool unknown = pace_.begin_step(even, least_);
+    if (located_->follow_time != FollowsTime::no) unknown = doubts(from, unknown, interpolate);
     const bool judges_all = pace_.is_finer_than(even) && has_four_looks();
     back_to_ = judges_all ? never : from;
     begin_.earlier_at = earlier_at_, begin_.oldest_at = oldest_at_;
@@ -67,6 +75,18 @@ class PacedSearch : protected PieceSearch {
   }
 
  private:
+  /// Whether the distance of the looks has to be chosen anew: because of a guard that follows the time,
+  /// or `anyway`. Then `choose_pace` asks the functions that are due, at one of its own looks.
+  template <class Interpolate>
+  bool doubts(double from, bool anyway, const Interpolate& interpolate) {
+    begin_asking();
+    if (asks() && !anyway) {
+      look(from, nullptr, interpolate, before_);
+      ask(from, before_, even_, interpolate);
+    }
+    return anyway || (follow_time() && pace_.is_doubtful(even_, earlier_at_ == never));
+  }
+
   /// The last three looks.
   struct Looks {
     List<double> last, earlier, oldest;
@@ -121,31 +141,57 @@ class PacedSearch : protected PieceSearch {
   }
 
   /// In the first step of a run, and in a much longer step than all before, no look says how fast the
-  /// guards vary. Looks at three points, not evenly spaced, and compares them with the derivatives of
-  /// the guards along the flow where the step begins, because a guard may have the period of the
-  /// looks.
+  /// guards vary; see LookPace::is_doubtful for guards that follow the time. Looks at three points, not
+  /// evenly spaced, and compares them with the derivatives of the guards along the flow where the step
+  /// begins, because a guard may have the period of the looks.
   template <class Interpolate>
   void choose_pace(double from, const Interpolate& interpolate) {
-    const auto is_steep = [&](std::size_t k, double range) {
-      constexpr double pieces = 1.0 / thresholds::near_share;  // from the difference to a piece
-      return std::abs(before_[k] - begin_.last[k]) * pieces > thresholds::steep_ranges * range;
-    };
-    for (double piece = std::min(even_, (end_at_ - from) / 3.0);; piece *= 0.5) {
+    const double most = std::min(even_, (end_at_ - from) / 3.0);
+    for (double piece = follow_time() ? pace_.next(most) : most;; piece *= 0.5) {
       look(from + thresholds::near_share * piece, nullptr, interpolate, before_);
       copy_values(begin_.last, oldest_), oldest_at_ = from;
       earlier_at_ = from + piece;
       look(earlier_at_, nullptr, interpolate, earlier_);
+      if (asks()) ask(earlier_at_, earlier_, even_, interpolate);
       const double third = from + thresholds::uneven * piece, last = from + 3.0 * piece;
       look(third, nullptr, interpolate, middle_);
       look(last, nullptr, interpolate, high_);
-      for (const std::size_t k : located_->looked) guards_->g[k] = middle_[k];  // no others
-      const bool hidden =
-          judge_.any(four_looks(third, last), [&](std::size_t k, const LookVariation& each) {
-            return each.hides() || is_steep(k, each.range);
-          });
+      const bool hidden = hides_from_begin(third, last) ||
+                          (follow_time() && hides_in_time(from, third, interpolate));
       set_looks();
       if (!hidden || !pace_.halve(piece, least_)) return;
     }
+  }
+
+  /// Whether some guard varies faster than the looks at oldest_at_, earlier_at_, `third` and `last` and
+  /// the derivatives at the first of these can show. A guard that follows the time is judged also where it
+  /// is far from zero.
+  bool hides_from_begin(double third, double last) {
+    constexpr double pieces = 1.0 / thresholds::near_share;  // from the difference to a piece
+    for (const std::size_t k : located_->looked) guards_->g[k] = middle_[k];  // no others
+    const bool timed = follow_time();
+    return judge_.any(four_looks(third, last), [&](std::size_t k, const LookVariation& each) {
+      const double move = std::abs(before_[k] - begin_.last[k]) * pieces;  // in a piece
+      return (timed ? each.is_noise() : each.hides()) ||
+             move > thresholds::steep_ranges * each.range;
+    });
+  }
+
+  /// The same by one more look, in the first piece. Four looks that are much too far apart seem to show a
+  /// sine once in some thirty times.
+  template <class Interpolate>
+  bool hides_in_time(double from, double third, const Interpolate& interpolate) {
+    const double at = from + (2.0 - thresholds::uneven) * (earlier_at_ - from);
+    look(at, nullptr, interpolate, at_end_);
+    const FourLooks looks{oldest_.data(),
+                          at_end_.data(),
+                          earlier_.data(),
+                          middle_.data(),
+                          ThirdDifference(from, at, earlier_at_, third),
+                          is_near(earlier_at_, third),
+                          resolution_ / (third - earlier_at_)};
+    return judge_.any(looks,
+                      [](std::size_t, const LookVariation& each) { return each.is_noise(); });
   }
 
   void keep_looks(std::size_t k) {
@@ -197,7 +243,6 @@ class PacedSearch : protected PieceSearch {
   List<double> kept_speed_;
   Looks begin_;              // those where the pieces of the step began
   double back_to_ = never;   // where that was, until shorter pieces are judged by four looks
-  List<double> before_;      // guards where a run begins, a little later
   List<double> at_end_;      // guards at the end of an evenly spaced piece
   double even_ = 0.0;        // [s] between the evenly spaced looks
   double least_ = 0.0;       // [s] no piece is shorter

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace saltus::thresholds {
 
@@ -112,6 +113,15 @@ inline constexpr double look_roundings = 4.0;
 /// as in the first step. A sine that is slow has 24 looks in a period; three in a period, at eight
 /// times the distance, still show that it is fast. tests/unit/look_pace_test.cpp
 inline constexpr double known_growth = 8.0;
+/// [1] How much longer than the last step that was looked into a step may be that passes without a look
+/// inside, where a guard follows the time. A sine that is slow has 24 looks in a period, so that the step
+/// of six looks that showed it is a quarter of a period, and the next one half of it.
+/// tests/unit/look_pace_test.cpp
+inline constexpr double seen_growth = 2.0;
+/// [of an evenly spaced piece] How far two times are apart at which a called function is asked whether it
+/// follows the time, with one state: many roundings of the time, and a small part of the way to a time
+/// at which that state would be impossible. tests/laws/timed_guards_test.cpp
+inline constexpr double times_apart = 1.0 / 64.0;
 /// [pieces] The second of the three looks that begin a run: the golden ratio, which is far from
 /// each ratio of small numbers. tests/laws/fast_guards_test.cpp
 inline constexpr double uneven = 1.6180339887498949;
@@ -125,6 +135,19 @@ inline constexpr double steep_ranges = 2.0;
 /// [pieces] in one step that are as short as allowed and do not show a guard, or that seem to show
 /// noise in a row: it then counts no more for 63 steps. tests/unit/look_pace_test.cpp
 inline constexpr int most_in_vain = 16;
+
+// --- edge_detection of a value that varies all the time: edge_series.hpp
+
+/// [eps of the value] A guard that has changed by less varies by its rounding: the operands of a
+/// difference have one each, and so has the difference. tests/unit/edge_series_test.cpp
+inline constexpr double edge_roundings = 4.0;
+/// [eps |t|] and [of the step]: firings that follow each other within this time. A root is located to some
+/// roundings of the time; a step with ten million firings would take longer than a run may.
+/// tests/unit/edge_series_test.cpp
+inline constexpr double edge_gap = 1e3, edge_share = 1e-7;
+/// [firings] So many in a row are without end: more than a staircase has by chance.
+/// tests/unit/edge_series_test.cpp
+inline constexpr std::int64_t endless_edges = 1000;
 
 // --- many monitors at once: crowd_locator.hpp, guard_polynomials.hpp
 

@@ -203,9 +203,7 @@ class StepSolver : public Interface {
   bool is_whole() const noexcept { return offset_ == 0.0 && !tangent_; }
 
   /// Whether a root is so near to the end of the step that the state is as good as there.
-  bool is_at_end(double root) const {
-    return length_ - root <= thresholds::beside_stop * length_;
-  }
+  bool is_at_end(double root) const { return length_ - root <= thresholds::beside_stop * length_; }
 
   template <class Inside>
   bool find_root(const Inside& inside) {
@@ -216,7 +214,8 @@ class StepSolver : public Interface {
     if constexpr (CutsSteps<Method>) {
       before_ = guards_->g;
       if (!find(nullptr)) return false;
-      if (!is_whole() || is_at_end(locator_.offset()) || !self().cut(locator_.offset())) return true;
+      if (!is_whole() || is_at_end(locator_.offset()) || !self().cut(locator_.offset()))
+        return true;
       guards_->restore(), guards_->monitors.clear(), locator_.forget();
       guards_->g = before_;
       return find(nullptr);
