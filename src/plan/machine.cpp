@@ -139,9 +139,9 @@ void Machine::flow(double t, const double* state, double* xdot) {
 namespace {
 
 /// Computes a group of guards into its slots of g. The value of an opaque boolean is only a sign.
-void compute(const GuardCall& call, Arguments::OfState seen, double t, double* g) {
+void compute(const GuardCall& call, const At& at, double* g) {
   const VectorRef out(g + call.slot, call.width);
-  (*call.function)(*call.system, seen.at(call, t), out);
+  (*call.function)(*call.system, at, out);
   if (!call.opaque) return;
   for (double& value : VectorRef(out)) value = value != 0.0 ? 1.0 : -1.0;
 }
@@ -157,8 +157,13 @@ void Machine::copy_reads(int group, Seen seen, double* g) const {
 void Machine::guards_at(double t, const double* state, double* g) {
   ++guard_calls;
   const Seen seen = run(calls_.guard_needs, t, state);
-  if (calls_.fused_guards) compute(*calls_.fused_guards, seen, t, g);
-  for (const int i : seen_.single()) compute(calls_.guards[i], seen, t, g);
+  if (calls_.fused_guards) compute(*calls_.fused_guards, seen.at(*calls_.fused_guards, t), g);
+  const At* at = nullptr;
+  for (const int i : seen_.single()) {
+    const GuardCall& call = calls_.guards[i];
+    if (call.at != at) at = &seen.at(call, t);  // the guards of one leaf follow each other
+    compute(call, *at, g);
+  }
   for (const int i : seen_.looked()) copy_reads(i, seen, g);
 }
 
@@ -185,9 +190,9 @@ void Machine::guards_of(std::span<const int> groups, double t, const double* sta
     if (calls_.fused_guards && plan_->walks.guards.fused[i])
       fused = true;
     else
-      compute(calls_.guards[i], seen, t, g);
+      compute(calls_.guards[i], seen.at(calls_.guards[i], t), g);
   }
-  if (fused) compute(*calls_.fused_guards, seen, t, g);
+  if (fused) compute(*calls_.fused_guards, seen.at(*calls_.fused_guards, t), g);
   for (const int i : groups) copy_reads(i, seen, g);
 }
 

@@ -193,12 +193,6 @@ void Instant::find_next() {
   }
 }
 
-/// Whether nothing is to be decided about a zero crossing: it is on its side, nothing is known of it in
-/// this instant, and no block is at rest. With many guards most are such at each event.
-bool Instant::is_untouched(std::size_t k) const {
-  return (*guards_)[k].stays(present_.g[k]) && !present_.has_facts(k) && !holds_.any();
-}
-
 /// Whether the commit moved a guard, which was at zero beside the root of another one, off zero.
 bool Instant::left_zero_beside_root(std::size_t k) {
   return moves_off_zero(guards_->g[k], present_.g[k], crossings_.uncertainty(k));
@@ -241,8 +235,13 @@ void Instant::mark_armed_at(std::size_t k) {
   if (now.fired)
     guards_->mark_armed_at(k, guard.at_zero() ? present_.t : not_armed,
                            present_.t + now.clear_after);
-  else if (!(present_.t < guard.clear_at))
-    guards_->mark_armed_at(k, not_armed, not_armed);
+  else
+    forget_firing(k);
+}
+
+/// Forgets the last firing of a guard that the flow has taken clearly off zero since.
+void Instant::forget_firing(std::size_t k) {
+  if (!(present_.t < (*guards_)[k].clear_at)) guards_->mark_armed_at(k, not_armed, not_armed);
 }
 
 /// Arms all active guards for the solver. A guard at zero, or a guard that just fired, gets its
@@ -251,11 +250,15 @@ void Instant::arm(bool at_start) {
   guards_->see_reads(present_.g);
   for (const std::size_t k : guards_->active().crossings()) {
     const bool goes_on = !at_start && is_untouched(k);
-    if (present_.now(k).turned_beside_root) continue_beside_root(k);
+    if (!goes_on && present_.now(k).turned_beside_root) continue_beside_root(k);
     guards_->stay(k, present_.g[k]);
-    if (!goes_on && holds_.of_guard(k).monitor.holding)
+    if (goes_on) {
+      forget_firing(k);
+      continue;
+    }
+    if (holds_.of_guard(k).monitor.holding)
       contacts_.arm_crossing(k);
-    else if (!goes_on)
+    else
       crossings_.arm(k, at_start);
     mark_armed_at(k);
   }

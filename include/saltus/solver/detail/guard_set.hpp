@@ -172,6 +172,8 @@ class GuardSet {
 
   // --- written by the locator
 
+  /// Follows a guard that stays where it is.
+  void follow_base(std::size_t k, double value) { guards_[k].base = value; }
   /// Follows the side after a look at which the guard did not fire.
   void follow(std::size_t k, double value) {
     Guard& guard = guards_[k];
