@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "guard_cones.hpp"
+
 namespace saltus {
 
 namespace {
@@ -100,6 +102,7 @@ Calls::Calls(const Plan& plan, std::vector<At>& views) {
   odes = make.odes(plan.walks.derivatives);
   single_odes = make.odes({});
   for (const GuardGroup& group : plan.guards) guards.push_back(make.guard(group));
+  guard_cones = detail::guard_cones(plan);
   if (plan.walks.guards.last)
     fused_guards = {make.whole(plan.walks.guards.last), 0, plan.guard_slots, false};
 }

@@ -17,10 +17,6 @@ using detail::Stepwise, detail::append;
 /// both numbers.
 constexpr std::size_t most_reads = 32;
 
-std::vector<int> nodes_read(const Plan& plan, const GuardGroup& group) {
-  return group.is_crossing() ? nodes_of_guard(plan, group) : plan.node(group.index).needs;
-}
-
 /// The continuous signals among these nodes, and those from which they are computed, the nearest
 /// first.
 std::vector<int> signals_behind(const Plan& plan, const std::vector<int>& nodes) {

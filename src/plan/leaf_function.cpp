@@ -109,6 +109,10 @@ std::vector<int> nodes_of_guard(const Plan& plan, const GuardGroup& group) {
   return nodes;
 }
 
+std::vector<int> nodes_read(const Plan& plan, const GuardGroup& group) {
+  return group.is_crossing() ? nodes_of_guard(plan, group) : plan.node(group.index).needs;
+}
+
 LeafFunction function_of_guard(const Plan& plan, const GuardGroup& group) {
   const ZeroCrossing& crossing = plan.crossing_of(group);
   return made(plan,

@@ -28,6 +28,7 @@ Machine::Machine(std::shared_ptr<const Plan> plan)
     : Memory(std::move(plan)),
       arguments_(*this),
       calls_(*plan_, arguments_.views()),
+      looked_(calls_.guard_needs.size(), 0),
       seen_(*this),
       resting_(*plan_) {
   if (calls_.odes.size() == 1 && calls_.derivatives.empty() && plan_->nx == calls_.odes[0].size)
@@ -138,9 +139,9 @@ void Machine::flow(double t, const double* state, double* xdot) {
 namespace {
 
 /// Computes a group of guards into its slots of g. The value of an opaque boolean is only a sign.
-void compute(const GuardCall& call, Arguments::OfState seen, double t, double* g) {
+void compute(const GuardCall& call, const At& at, double* g) {
   const VectorRef out(g + call.slot, call.width);
-  (*call.function)(*call.system, seen.at(call, t), out);
+  (*call.function)(*call.system, at, out);
   if (!call.opaque) return;
   for (double& value : VectorRef(out)) value = value != 0.0 ? 1.0 : -1.0;
 }
@@ -156,23 +157,42 @@ void Machine::copy_reads(int group, Seen seen, double* g) const {
 void Machine::guards_at(double t, const double* state, double* g) {
   ++guard_calls;
   const Seen seen = run(calls_.guard_needs, t, state);
-  if (calls_.fused_guards) compute(*calls_.fused_guards, seen, t, g);
-  for (const int i : seen_.single()) compute(calls_.guards[i], seen, t, g);
+  if (calls_.fused_guards) compute(*calls_.fused_guards, seen.at(*calls_.fused_guards, t), g);
+  const At* at = nullptr;
+  for (const int i : seen_.single()) {
+    const GuardCall& call = calls_.guards[i];
+    if (call.at != at) at = &seen.at(call, t);  // the guards of one leaf follow each other
+    compute(call, *at, g);
+  }
   for (const int i : seen_.looked()) copy_reads(i, seen, g);
+}
+
+/// What these groups need: a signal that several of them need is computed once.
+Machine::Seen Machine::run_needs_of(std::span<const int> groups, double t, const double* state) {
+  const auto is_whole = [this](int i) { return calls_.guard_cones[i].whole; };
+  if (groups.size() == calls_.guards.size() || std::ranges::any_of(groups, is_whole))
+    return run(calls_.guard_needs, t, state);
+  const Seen seen = arguments_.of(state);
+  ++look_;
+  for (const int i : groups) {
+    for (const int call : calls_.guard_cones[i].calls)
+      if (std::exchange(looked_[call], look_) != look_) run(nth(calls_.guard_needs, call), seen, t);
+  }
+  return seen;
 }
 
 void Machine::guards_of(std::span<const int> groups, double t, const double* state, double* g) {
   if (lone_guard_ != nullptr || carrier_ != nullptr) return guards(t, state, g);
   ++guard_calls;
-  const Seen seen = run(calls_.guard_needs, t, state);
+  const Seen seen = run_needs_of(groups, t, state);
   bool fused = false;
   for (const int i : groups) {
     if (calls_.fused_guards && plan_->walks.guards.fused[i])
       fused = true;
     else
-      compute(calls_.guards[i], seen, t, g);
+      compute(calls_.guards[i], seen.at(calls_.guards[i], t), g);
   }
-  if (fused) compute(*calls_.fused_guards, seen, t, g);
+  if (fused) compute(*calls_.fused_guards, seen.at(*calls_.fused_guards, t), g);
   for (const int i : groups) copy_reads(i, seen, g);
 }
 

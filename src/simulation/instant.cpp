@@ -166,9 +166,12 @@ bool Instant::follow_controls() {
 
 /// Zero crossings that the commit moved across zero in their direction fire in the next pass.
 void Instant::find_next() {
-  for (const std::size_t k : guards_->active().all) {
+  for (const std::size_t k : guards_->active().crossings()) {
+    if (is_untouched(k)) {
+      guards_->stay(k, present_.g[k]);
+      continue;
+    }
     const GuardGroup& group = plan().guard((*guards_)[k].group);
-    if (!group.is_crossing()) continue;
     const bool holds = holds_.of_guard(k).monitor.holding;
     switch (decide_after_pass(holds, present_.now(k).fired_in_pass, group.queued)) {
       case AfterPass::nothing:
@@ -232,25 +235,36 @@ void Instant::mark_armed_at(std::size_t k) {
   if (now.fired)
     guards_->mark_armed_at(k, guard.at_zero() ? present_.t : not_armed,
                            present_.t + now.clear_after);
-  else if (!(present_.t < guard.clear_at))
-    guards_->mark_armed_at(k, not_armed, not_armed);
+  else
+    forget_firing(k);
+}
+
+/// Forgets the last firing of a guard that the flow has taken clearly off zero since.
+void Instant::forget_firing(std::size_t k) {
+  if (!(present_.t < (*guards_)[k].clear_at)) guards_->mark_armed_at(k, not_armed, not_armed);
 }
 
 /// Arms all active guards for the solver. A guard at zero, or a guard that just fired, gets its
 /// side from the flow.
 void Instant::arm(bool at_start) {
   guards_->see_reads(present_.g);
-  for (const std::size_t k : guards_->active().all) {
-    const Guard& guard = (*guards_)[k];
-    if (present_.now(k).turned_beside_root) continue_beside_root(k);
-    guards_->g[k] = present_.g[k];
-    guards_->set_base(k, present_.g[k]);
-    if (!plan().guard(guard.group).is_crossing())
-      relations_.arm(k);
-    else if (holds_.of_guard(k).monitor.holding)
+  for (const std::size_t k : guards_->active().crossings()) {
+    const bool goes_on = !at_start && is_untouched(k);
+    if (!goes_on && present_.now(k).turned_beside_root) continue_beside_root(k);
+    guards_->stay(k, present_.g[k]);
+    if (goes_on) {
+      forget_firing(k);
+      continue;
+    }
+    if (holds_.of_guard(k).monitor.holding)
       contacts_.arm_crossing(k);
     else
       crossings_.arm(k, at_start);
+    mark_armed_at(k);
+  }
+  for (const std::size_t k : guards_->active().relations()) {
+    guards_->stay(k, present_.g[k]);
+    relations_.arm(k);
     mark_armed_at(k);
   }
 }

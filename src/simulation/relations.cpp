@@ -69,10 +69,8 @@ void Relations::read_again() {
   for (int round = 0; round < options_->max_passes; ++round) {
     bool flipped = false;
     machine_->guards_at(present_->t, machine_->x.data(), present_->g.data());
-    for (const std::size_t k : guards_->active().all) {
-      const GuardGroup& group = machine_->plan().guard((*guards_)[k].group);
-      if (!group.is_crossing()) flipped = read(group, k) || flipped;
-    }
+    for (const std::size_t k : guards_->active().relations())
+      flipped = read(machine_->plan().guard((*guards_)[k].group), k) || flipped;
     if (!flipped) return;
     machine_->evaluate_instant(present_->t);
   }

@@ -46,7 +46,7 @@ void GuardSet::select(const std::vector<int>& groups, const Plan& plan) {
   for (const int i : groups) {
     const GuardGroup& group = plan.guards[i];
     for (Index s = group.slot; s < group.slot + group.size; ++s)
-      active_.add(static_cast<std::size_t>(s), guards_[s]);
+      active_.add(static_cast<std::size_t>(s), guards_[s], group.is_crossing());
     active_.add_reads(group);
   }
   for (Guard& guard : guards_) guard.was_active = std::exchange(guard.active, false);

@@ -133,7 +133,8 @@ TEST_CASE("The limits of a guard are the first values at which it fires") {
     for (const auto& arm : std::vector<void (*)(GuardSet&)>{
              [](GuardSet& g) { g.arm(0, 1); }, [](GuardSet& g) { g.arm(0, -1); },
              [](GuardSet& g) { g.wait(0, 1, 0.0); }, [](GuardSet& g) { g.wait(0, -1, 0.1); },
-             [](GuardSet& g) { g.rest(0, 1, 0.1); }, [](GuardSet& g) { g.carry(0); }}) {
+             [](GuardSet& g) { g.rest(0, 1, 0.1); }, [](GuardSet& g) { g.carry(0); },
+             [](GuardSet& g) { g.arm(0, 1), g.set_error(0, 0.1); }, [](GuardSet&) {}}) {
       GuardSet guards = one(direction);
       guards.set_base(0, 0.5);
       arm(guards);
@@ -147,6 +148,33 @@ TEST_CASE("The limits of a guard are the first values at which it fires") {
       }
     }
   }
+}
+
+TEST_CASE("A guard that stays does not fire, and a look changes no more than its last value") {
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  int stay = 0;
+  for (const Direction direction :
+       {falls, rises, Direction::crosses_zero, Direction::edge_detection}) {
+    for (const auto& arm : std::vector<void (*)(GuardSet&)>{
+             [](GuardSet& g) { g.arm(0, 1); }, [](GuardSet& g) { g.arm(0, -1); },
+             [](GuardSet& g) { g.arm(0, 1), g.set_error(0, 0.1); },
+             [](GuardSet& g) { g.wait(0, 1, 0.0); }, [](GuardSet& g) { g.rest(0, 1, 0.0); },
+             [](GuardSet& g) { g.carry(0); }, [](GuardSet&) {}}) {
+      for (const double value : {0.0, least, -least, 0.5, -0.5}) {
+        GuardSet guards = one(direction);
+        arm(guards);
+        if (!guards[0].stays(value)) continue;
+        ++stay;
+        CHECK_FALSE(guards[0].crossed(value));
+        const Guard before = guards[0];
+        guards.see(0, value);
+        CHECK(guards[0].phase == before.phase);
+        CHECK(guards[0].side == before.side);
+        CHECK(guards[0].error == before.error);
+      }
+    }
+  }
+  CHECK(stay == 3 * 2 * 2);  // three directions, armed on two sides, at two values off zero each
 }
 
 TEST_CASE("A run that goes on knows what the records knew, in every phase but the contacts'") {

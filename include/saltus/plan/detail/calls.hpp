@@ -27,6 +27,12 @@ struct GuardCall : Call {
   bool opaque;
 };
 
+/// The part of Calls::guard_needs that one group of guards needs.
+struct GuardCone {
+  bool whole = true;     ///< all of it
+  List<int> calls = {};  ///< otherwise: their places there, in ascending order
+};
+
 /// The calls of a machine. They point to the views from which they were made.
 struct Calls {
   Calls() = default;
@@ -38,6 +44,7 @@ struct Calls {
   std::vector<Call> odes;                        // of leaves that have one, and the fused function
   std::vector<Call> single_odes;                 // each with its own call
   List<GuardCall> guards;
+  List<GuardCone> guard_cones;  // of each group
   std::optional<GuardCall> fused_guards;
 };
 

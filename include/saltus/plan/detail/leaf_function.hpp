@@ -59,7 +59,9 @@ LeafFunction function_of_node(const Plan& plan, int node);
 LeafFunction function_of_rates(const Plan& plan, int leaf);
 /// A group of zero crossings.
 LeafFunction function_of_guard(const Plan& plan, const GuardGroup& group);
-/// The nodes that this guard reads.
+/// The nodes that this group of zero crossings reads.
 std::vector<int> nodes_of_guard(const Plan& plan, const GuardGroup& group);
+/// The same for a group of any kind.
+std::vector<int> nodes_read(const Plan& plan, const GuardGroup& group);
 
 }  // namespace saltus

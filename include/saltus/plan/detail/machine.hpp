@@ -165,18 +165,22 @@ class Machine : public Memory {
   /// Makes calls at a state, and returns the arguments at this state for further calls.
   Seen run(const std::vector<OutputCall>& calls, double t, const double* state) {
     const Seen seen = arguments_.of(state);
-    for (const OutputCall& call : calls) {
-      const VectorRef out(y.data() + call.to, call.width);
-      (*call.function)(*call.system, seen.at(call, t), out);
-      if (!call.relation) continue;
-      const bool at_zero = call.true_at_zero;
-      for (double& value : VectorRef(out)) value = value > 0.0 || (at_zero && value == 0.0);
-    }
+    for (const OutputCall& call : calls) run(call, seen, t);
     return seen;
   }
+  [[gnu::always_inline]] void run(const OutputCall& call, Seen seen, double t) {
+    const VectorRef out(y.data() + call.to, call.width);
+    (*call.function)(*call.system, seen.at(call, t), out);
+    if (!call.relation) return;
+    const bool at_zero = call.true_at_zero;
+    for (double& value : VectorRef(out)) value = value > 0.0 || (at_zero && value == 0.0);
+  }
+  Seen run_needs_of(std::span<const int> groups, double t, const double* state);
 
   Arguments arguments_;
   Calls calls_;
+  List<std::int64_t> looked_;  // of each call that guards need: the look that made it last
+  std::int64_t look_ = 0;      // looks at some of the groups
   /// If this is the only ode, and it needs no computed values, it is called without a walk.
   const Call* lone_ode_ = nullptr;
   const GuardCall* lone_guard_ = nullptr;

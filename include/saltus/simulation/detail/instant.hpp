@@ -115,7 +115,13 @@ class Instant {
   void look_at_crossing(std::size_t k);
   bool left_zero_beside_root(std::size_t k);
   void continue_beside_root(std::size_t k);
+  /// Whether nothing is to be decided about a zero crossing: it is on its side, nothing is known of it in
+  /// this instant, and no block is at rest. With many guards most are such at each event.
+  [[gnu::always_inline]] bool is_untouched(std::size_t k) const {
+    return !present_.has_facts(k) && (*guards_)[k].stays(present_.g[k]) && !holds_.any();
+  }
   void mark_armed_at(std::size_t k);
+  void forget_firing(std::size_t k);
   void arm(bool at_start);
   void select_guards();
   bool follow_controls();

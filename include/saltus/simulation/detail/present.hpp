@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/base/list.hpp"
 #include "saltus/simulation/detail/error_bound.hpp"
 #include "saltus/solver/detail/guard.hpp"
 
@@ -61,7 +62,6 @@ struct GuardNow {
   bool put_at_zero = false;         ///< the last commit moved it to zero, within its error
   bool turned_beside_root = false;  ///< at zero at the root of another guard, and turned to its
                                     ///< armed side, to which the flow took it
-  bool noted = false;               ///< it is in the list of guards with facts
 
   bool jumped() const noexcept { return jump > 0.0; }
 };
@@ -69,13 +69,13 @@ struct GuardNow {
 /// The time of an instant, the time left of the run, and the findings pass by pass.
 class Present {
  public:
-  explicit Present(std::size_t guards) : g(guards, 1.0), now_(guards) {}
+  explicit Present(std::size_t guards) : g(guards, 1.0), now_(guards), is_noted_(guards, 0) {}
 
   /// An instant begins: nothing has been found yet. Guards without facts cost nothing.
   void open(double time, double rest_of_run) {
     t = time, longest = rest_of_run, pass = 0;
     firings.clear(), actions.clear();
-    for (const std::size_t k : noted_) now_[k] = {};
+    for (const std::size_t k : noted_) now_[k] = {}, is_noted_[k] = 0;
     noted_.clear(), fired_in_pass_.clear();
     outcome = {}, contact_changed = false;
   }
@@ -87,11 +87,12 @@ class Present {
 
   /// The facts about guard k.
   const GuardNow& now(std::size_t k) const { return now_[k]; }
+  /// Whether anything is noted of guard k in this instant.
+  bool has_facts(std::size_t k) const { return is_noted_[k] != 0; }
   /// The same, to be written.
   GuardNow& note(std::size_t k) {
-    GuardNow& now = now_[k];
-    if (!std::exchange(now.noted, true)) noted_.push_back(k);
-    return now;
+    if (!std::exchange(is_noted_[k], 1)) noted_.push_back(k);
+    return now_[k];
   }
   /// Guard k fires in this pass.
   void fires_in_pass(std::size_t k) {
@@ -136,6 +137,7 @@ class Present {
 
  private:
   std::vector<GuardNow> now_;
+  List<char> is_noted_;                     // whether a guard is in noted_
   std::vector<std::size_t> noted_;          // guards with facts
   std::vector<std::size_t> fired_in_pass_;  // guards that fired in this pass
 };

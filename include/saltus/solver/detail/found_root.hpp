@@ -34,6 +34,10 @@ class FoundRoot : protected DipSearch {
       const Guard& guard = (*guards_)[k];
       guards_->g[k] = high_[k];
       if (is_beside_root(k)) guards_->beside_root.push_back(k);
+      if (guard.stays(high_[k])) {
+        guards_->follow_base(k, high_[k]);
+        continue;
+      }
       guards_->follow(k, high_[k]);
       // A guard exactly on zero takes the side to which it leaves.
       if (guard.phase != Phase::resting && guard.crossed(high_[k])) guards_->leave_to(k, 0);

@@ -37,13 +37,13 @@ class Glance : protected Narrower {
   void look_up_guards() {
     version_ = guards_->version();
     set_limits();
-    plain_.clear();
-    least_move_.clear();
-    jumps_ = false;
+    const std::size_t count = located_->slots.size();
+    plain_.resize(count), least_move_.resize(count), jumps_ = false;
+    double *plain = plain_.data(), *least = least_move_.data();
     for (const std::size_t k : located_->slots) {
-      plain_.push_back((*guards_)[k].plain_side());
-      jumps_ = jumps_ || (*guards_)[k].jumps;
-      least_move_.push_back((*guards_)[k].stepped ? std::numeric_limits<double>::denorm_min() : 0);
+      const Guard& guard = (*guards_)[k];
+      *plain++ = guard.plain_side(), jumps_ = jumps_ || guard.jumps;
+      *least++ = guard.stepped ? std::numeric_limits<double>::denorm_min() : 0.0;
     }
   }
   /// After a root there is no need to look up the records, because the engine writes them next.

@@ -101,19 +101,12 @@ struct Guard : GuardTraits {
   }
 
   /// It fires at values <= first or >= second. This is crossed() in another form, for many values.
-  std::pair<double, double> limits() const {
+  [[gnu::always_inline]] std::pair<double, double> limits() const {
+    if (phase != Phase::armed || error > 0.0 || direction == Direction::edge_detection)
+      return limits_within_error();
     constexpr double never = std::numeric_limits<double>::infinity();
-    if (phase == Phase::resting)
-      return {-std::nextafter(error, never), std::nextafter(error, never)};
-    const Direction watched = watched_direction();
-    if (watched == Direction::edge_detection && phase == Phase::unseen) return {-never, never};
-    if (watched == Direction::edge_detection)
-      return {std::nextafter(base, -never), std::nextafter(base, never)};
-    const double reach = error > 0.0               ? std::nextafter(error, never)
-                         : phase == Phase::waiting ? std::numeric_limits<double>::denorm_min()
-                                                   : 0.0;
-    const bool falls = side > 0 && fires(watched, 1, -1), rises = side < 0 && fires(watched, -1, 1);
-    return {falls ? -reach : -never, rises ? reach : never};
+    return {side > 0 && fires(direction, 1, -1) ? 0.0 : -never,
+            side < 0 && fires(direction, -1, 1) ? 0.0 : never};
   }
 
   void set(Phase now, int on, double within) {
@@ -133,9 +126,33 @@ struct Guard : GuardTraits {
     error = 0.0;
   }
 
+  /// Whether it is armed, off zero, and on its side at this value, so that neither a look nor arming
+  /// changes more of its record than its base. Only the value of edge_detection has no side.
+  bool stays(double value) const noexcept {
+    return phase == Phase::armed && error == 0.0 && side * value > 0.0 &&
+           direction != Direction::edge_detection;
+  }
+
   /// The side, if only staying on it matters for this guard; otherwise 0.
   double plain_side() const noexcept {
     return waits() || watched_direction() == Direction::edge_detection ? 0.0 : side;
+  }
+
+ private:
+  /// The limits of a guard in any phase, of any direction.
+  [[gnu::noinline]] std::pair<double, double> limits_within_error() const {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (phase == Phase::resting)
+      return {-std::nextafter(error, never), std::nextafter(error, never)};
+    const Direction watched = watched_direction();
+    if (watched == Direction::edge_detection && phase == Phase::unseen) return {-never, never};
+    if (watched == Direction::edge_detection)
+      return {std::nextafter(base, -never), std::nextafter(base, never)};
+    const double reach = error > 0.0               ? std::nextafter(error, never)
+                         : phase == Phase::waiting ? std::numeric_limits<double>::denorm_min()
+                                                   : 0.0;
+    const bool falls = side > 0 && fires(watched, 1, -1), rises = side < 0 && fires(watched, -1, 1);
+    return {falls ? -reach : -never, rises ? reach : never};
   }
 };
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -53,17 +54,22 @@ struct LocatedGuards {
 /// monitors. The last two are searched one after the other, because no monitor may change a bit of
 /// a root.
 struct ActiveGuards {
-  std::vector<std::size_t> all;
+  std::vector<std::size_t> all;  ///< those of zero crossings first
+  std::size_t crossing_count = 0;
   LocatedGuards stopping, monitors;
 
-  void add(std::size_t slot, const GuardTraits& guard) {
-    all.push_back(slot);
+  using Slots = std::span<const std::size_t>;
+  Slots crossings() const { return Slots(all).first(crossing_count); }
+  Slots relations() const { return Slots(all).subspan(crossing_count); }
+
+  void add(std::size_t slot, const GuardTraits& guard, bool crossing = true) {
+    all.push_back(slot), crossing_count += crossing;
     (guard.monitor ? monitors : stopping).add(slot, guard);
   }
   void add_reads(const GuardGroup& group) {
     (group.monitor ? monitors : stopping).add_reads(group);
   }
-  void clear() { all.clear(), stopping.clear(), monitors.clear(); }
+  void clear() { all.clear(), crossing_count = 0, stopping.clear(), monitors.clear(); }
 };
 
 /// The only writer of guard records. Each write by the engine increments the version, so that a
@@ -125,6 +131,11 @@ class GuardSet {
     for (const LocatedGuards* located : {&active_.stopping, &active_.monitors})
       for (const LookedRead& read : located->reads) g[read.slot] = values[read.slot];
   }
+  /// Notes the value of a guard only, as its last and as the one that edge_detection compares with.
+  void stay(std::size_t k, double value) {
+    ++version_;
+    g[k] = guards_[k].base = value;
+  }
   void fired(std::size_t k, int from) { guards_[k].came_from = static_cast<signed char>(from); }
   /// Whether a relation keeps its truth from now on.
   void keep_truth(std::size_t k, bool yes) { guards_[k].rests = yes; }
@@ -161,6 +172,8 @@ class GuardSet {
 
   // --- written by the locator
 
+  /// Follows a guard that stays where it is.
+  void follow_base(std::size_t k, double value) { guards_[k].base = value; }
   /// Follows the side after a look at which the guard did not fire.
   void follow(std::size_t k, double value) {
     Guard& guard = guards_[k];

@@ -55,8 +55,9 @@ class Narrower {
   /// Sets the values at which the active guards fire, from their present records.
   void set_limits() {
     no_others_ = located_->groups.size() == machine_->seen_guards().groups().size();
-    limits_.clear();
-    for (const std::size_t k : located_->slots) limits_.push_back((*guards_)[k].limits());
+    limits_.resize(located_->slots.size());
+    std::pair<double, double>* limits = limits_.data();
+    for (const std::size_t k : located_->slots) *limits++ = (*guards_)[k].limits();
   }
 
   bool fired(std::size_t i, const std::vector<double>& values) const {
