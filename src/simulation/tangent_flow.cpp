@@ -143,6 +143,15 @@ bool TangentFlow::rests_at_switch(double t, const double* x, const Eigen::Vector
   return false;
 }
 
+void TangentFlow::sides_of_switches(double t, const double* x, std::vector<char>& sides) {
+  sides.clear();
+  if (!switches_) return;
+  switch_values_.resize(switches_->size());
+  variables_.at(t, x, [&](const At& at) { switches_->evaluate(at, switch_values_.data()); });
+  for (Index k = 0; k < switch_values_.size(); k += tape::numbers_of_switch)
+    sides.push_back(switch_values_[k] > switch_values_[k + 1] ? 1 : 0);
+}
+
 bool TangentFlow::bends(double t, const double* x, const TangentDirection& along) {
   const auto values_at = [&](double shift) -> Eigen::ArrayXd {
     Machine& probe = probe_->at(x, along, shift);

@@ -172,6 +172,13 @@ inline constexpr double idle_share = 1e-7;
 inline constexpr std::int64_t resting_events = 1'000'000;
 inline constexpr double resting_share = 1e-3;
 
+// --- derivatives through the stages of a step: stage_tangents.cpp (tests/laws/stage_tangents_test.cpp)
+
+/// [tolerances] The largest error estimate of an entry of S in a step that the states have chosen.
+inline constexpr double most_stage_error = 10.0;
+/// [eps] The rounding of an entry of S that its estimate may have.
+inline constexpr double stage_rounding = 1e3;
+
 // --- crawling along a jump of a derivative: crawl.cpp (tests/laws/crawl_test.cpp)
 
 /// [steps] of the first window. A jump that is passed costs some forty steps.

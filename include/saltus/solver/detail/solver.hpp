@@ -8,6 +8,7 @@
 
 #include "saltus/base/list.hpp"
 #include "saltus/plan/detail/machine.hpp"
+#include "saltus/solver/detail/column_steps.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
 #include "saltus/solver/linear_solver.hpp"
 #include "saltus/solver/statistics.hpp"
@@ -83,6 +84,12 @@ class Solver {
   /// The time [s] within the last step at which one polynomial ends and the next begins; a time
   /// before the step if there is only one.
   virtual double joint() { return -std::numeric_limits<double>::infinity(); }
+  /// The stages of the last step, if an explicit method has taken it and still has them. `inside`: also
+  /// those that only the dense output reads.
+  virtual StepStages stages(bool inside) {
+    (void)inside;
+    return {};
+  }
   virtual const SolverStatistics& statistics() const = 0;
 
   /// Which method was used when, in order of time.
