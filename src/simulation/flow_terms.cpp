@@ -59,7 +59,11 @@ void FlowTerms::go_to(double t, const double* x) {
 
 void FlowTerms::apply(const double* s, double* ds) const {
   std::fill_n(ds, n_ * m_, 0.0);
-  for (const auto& [value, to, from] : by_state_) add_row(values_[value], s + from, m_, ds + to);
+  if (m_ == 1) {
+    for (const auto& [value, to, from] : by_state_) ds[to] += values_[value] * s[from];
+  } else {
+    for (const auto& [value, to, from] : by_state_) add_row(values_[value], s + from, m_, ds + to);
+  }
   for (const auto& [value, to, weight] : fixed_) ds[to] += values_[value] * weight;
 }
 

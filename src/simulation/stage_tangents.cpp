@@ -1,14 +1,16 @@
 // StageTangents: step by step, and inside a step.
 #include "saltus/simulation/detail/stage_tangents.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace saltus {
 
-void StageTangents::begin(Variation::Tolerances tolerances) {
+void StageTangents::begin(Variation::Tolerances tolerances, Eigen::VectorXd state_atol) {
   using namespace thresholds;
   rtol_ = tolerances.rtol + stage_rounding * eps;
-  atol_ = tolerances.atol;
+  atol_ = tolerances.atol, state_atol_ = std::move(state_atol);
+  most_error_ = std::clamp(most_stage_share / rtol_, 1.0, most_stage_error);
   made_by_ = nullptr;
   forget();
 }
@@ -31,16 +33,14 @@ bool StageTangents::advance(double from, double to, Integration& integration,
   const bool continues = std::exchange(continues_, false);
   has_step_ = false;
   if (!flow_->exact() || columns.x.size() == 0) return false;
-  const StepStages step = integration.stages(false);
+  const StepStages step = integration.stages();
   if (!step || step.t0 != from || !(to <= step.t1)) return false;
   prepare(step, columns);
   s0_ = columns.x;
   terms_.watch(continues);
   steps_->step(step, terms_, s0_.data(), s1_.data(), continues);
   terms_.end_step();
-  const ColumnSteps::Tolerances tolerances{rtol_, atol_.data()};
-  if (!steps_->within(thresholds::most_stage_error, step, tolerances, s0_.data(), s1_.data()))
-    return false;
+  if (!is_good(step)) return false;
   from_ = from, to_ = to, t0_ = step.t0, t1_ = step.t1, h_ = step.h;
   integration_ = &integration;
   dense_ready_ = false, has_step_ = true;
@@ -53,10 +53,22 @@ bool StageTangents::advance(double from, double to, Integration& integration,
   return has_step_;
 }
 
+/// Whether S is as good as the states are. Where they have chosen the size of the step by their error, S
+/// has one of the same kind. Where they rest, or an event or the user has cut the step, they have none.
+bool StageTangents::is_good(const StepStages& step) {
+  using namespace thresholds;
+  const double error = steps_->error(step, {rtol_, atol_.data()}, s0_.data(), s1_.data());
+  if (terms_.crossed() || error <= 1.0) return error <= 1.0;
+  const double of_states = steps_->state_error(step, {rtol_, state_atol_.data()});
+  return error <= most_error_ * std::clamp(of_states, free_stage_share, 1.0);
+}
+
 bool StageTangents::prepare_inside() {
   if (dense_ready_) return true;
-  const StepStages step = integration_->stages(true);
-  if (!step || step.t0 != t0_) return false;
+  Eigen::VectorXd x(s0_.rows());
+  integration_->interpolate(t0_ + 0.5 * h_, x.data());  // the solver makes its dense output
+  const StepStages step = integration_->stages();
+  if (!step || step.t0 != t0_ || !step.dense) return false;
   steps_->prepare_dense(step, terms_, s0_.data(), s1_.data());
   inside_.resize(s0_.rows(), s0_.cols());
   return dense_ready_ = true;

@@ -71,7 +71,9 @@ void Tangents::begin(const Context& start) {
   }
   rows_.begin(std::move(names));
   const Variation::Tolerances tolerances{options_->rtol.smallest(), std::move(atol)};
-  stages_.begin(tolerances), variation_.emplace(tolerances);
+  Eigen::VectorXd state_atol(plan.nx);
+  for (Index j = 0; j < plan.nx; ++j) state_atol[j] = options_->atol[j];
+  stages_.begin(tolerances, std::move(state_atol)), variation_.emplace(tolerances);
   columns_.t.setZero(m);
   waits_.begin(m), guard_sizes_.setZero(machine_->plan().look_slots);
   jumps_.begin(plan.nx), gaps_.begin(), events_.begin(), one_sided_.begin();
@@ -157,16 +159,20 @@ void Tangents::solve(double from, double to, Integration& integration) {
     collocate(from, to, integration, columns_.x);
     gaps_.lose_not_finite(t_, flow_.obstacle());
   }
-  look_for_jump(from, to, [&](double t) -> Eigen::VectorXd {
-    return t < to ? integration.at(t) : integration.state();
+  look_for_jump(from, to, [&](double t) {
+    Eigen::VectorXd x = integration.state();
+    if (t < to) integration.interpolate(t, x.data());
+    return x;
   });
 }
 
 /// Solves the linear equation along the step.
 void Tangents::collocate(double from, double to, Integration& integration, Eigen::MatrixXd& s) {
+  Eigen::VectorXd x(machine_->plan().nx);
   const auto equation = [&](double t, Eigen::MatrixXd& a, Eigen::MatrixXd& b) {
-    const double* x = t < to ? integration.at(t).data() : integration.state().data();
-    flow_.at(t, x, columns_, a, b);
+    x = integration.state();
+    if (t < to) integration.interpolate(t, x.data());
+    flow_.at(t, x.data(), columns_, a, b);
   };
   const double joint = integration.joint(from);
   const double middle = from < joint && joint < to ? joint : from;

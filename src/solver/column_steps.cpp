@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "saltus/solver/detail/dop853.hpp"
@@ -18,7 +19,12 @@ template <Tableau Method>
 class ColumnStepsOf final : public ColumnSteps {
  public:
   ColumnStepsOf(Index n, Index m)
-      : n_(n), size_(n * m), x_(as_size(n)), s_(as_size(size_)), dense_(size_) {
+      : n_(n),
+        size_(n * m),
+        x_(as_size(n)),
+        s_(as_size(size_)),
+        squares_(as_size(m)),
+        dense_(size_) {
     k_.assign(Method::rows * as_size(size_), 0.0);
   }
 
@@ -33,15 +39,22 @@ class ColumnStepsOf final : public ColumnSteps {
     rate.go_to(step.t1, step.x1), rate.apply(s1, stage(last));
   }
 
-  bool within(double most, const StepStages& step, const Tolerances& tolerances, const double* s0,
-              const double* s1) const override {
-    for (Index i = 0; i < size_; ++i) {
-      const double size = std::max(std::abs(s0[i]), std::abs(s1[i]));
-      // An infinite entry has an infinite tolerance: s1 - s1 makes its error NaN.
-      const double allowed = most * (tolerances.atol[i] + tolerances.rtol * size) + (s1[i] - s1[i]);
-      if (!(estimate(step.h, i) <= allowed) && std::isfinite(s0[i])) return false;
+  double state_error(const StepStages& step, const Tolerances& tolerances) override {
+    state_squares_.front() = {};
+    add_squares(step.h, {step.x0, step.x1, step.k, n_}, tolerances, state_squares_);
+    return mean_error(state_squares_.front());
+  }
+
+  double error(const StepStages& step, const Tolerances& tolerances, const double* s0,
+               const double* s1) override {
+    std::ranges::fill(squares_, Squares{});
+    add_squares(step.h, {s0, s1, k_.data(), size_}, tolerances, squares_);
+    double most = 0.0;
+    for (std::size_t k = 0; k < squares_.size(); ++k) {
+      const double found = mean_error(squares_[k]);
+      if (found > most && std::isfinite(s0[k])) most = found;
     }
-    return true;
+    return most;
   }
 
   void prepare_dense(const StepStages& step, ColumnRate& rate, const double* s0,
@@ -55,6 +68,7 @@ class ColumnStepsOf final : public ColumnSteps {
  private:
   static constexpr std::size_t last = Method::stages - 1;
   static constexpr std::size_t estimates = Method::e.size();
+  using Squares = std::array<double, estimates>;
 
   static std::size_t as_size(Index n) { return static_cast<std::size_t>(n); }
   double* stage(std::size_t i) { return k_.data() + static_cast<Index>(i) * size_; }
@@ -89,19 +103,40 @@ class ColumnStepsOf final : public ColumnSteps {
     detail::store<W>(out, detail::load<W>(begin) + h * sum);
   }
 
-  /// The error of entry i: that of the method, for this entry alone.
-  double estimate(double h, Index i) const {
-    return [&]<std::size_t... M>(std::index_sequence<M...>) {
-      const std::array<double, estimates> of{
-          h * detail::dot<[] { return Method::e[M]; }, Method::stages, 0>(k_.data() + i, size_)...};
-      std::array<double, estimates> squares{};
-      for (std::size_t m = 0; m < estimates; ++m) squares[m] = of[m] * of[m];
-      return Method::error(squares);
+  /// Values with their stages.
+  struct Carried {
+    const double *from, *to, *k;
+    Index size;
+  };
+  /// Adds the squares of the error estimates, in tolerances, row by row to those of the columns.
+  void add_squares(double h, const Carried& of, const Tolerances& tolerances,
+                   std::vector<Squares>& columns) const {
+    for (Index i = 0; i < of.size;) {
+      for (Squares& column : columns) {
+        const double size = std::max(std::abs(of.from[i]), std::abs(of.to[i]));
+        // An infinite entry has an infinite tolerance: to - to makes its error NaN.
+        const double allowed = tolerances.atol[i] + tolerances.rtol * size + (of.to[i] - of.to[i]);
+        add_square(h / allowed, of.k + i, of.size, column);
+        ++i;
+      }
+    }
+  }
+  static void add_square(double scale, const double* k, Index size, Squares& squares) {
+    [&]<std::size_t... M>(std::index_sequence<M...>) {
+      const Squares of{scale *
+                       detail::dot<[] { return Method::e[M]; }, Method::stages, 0>(k, size)...};
+      ((squares[M] += of[M] * of[M]), ...);
     }(std::make_index_sequence<estimates>{});
+  }
+  double mean_error(Squares squares) const {
+    for (double& square : squares) square /= static_cast<double>(n_);
+    const double found = Method::error(squares);
+    return std::isfinite(found) ? found : std::numeric_limits<double>::infinity();
   }
 
   Index n_, size_;
-  std::vector<double> x_, s_, k_;  // of a stage; of all stages
+  std::vector<double> x_, s_, k_;                    // of a stage; of all stages
+  std::vector<Squares> squares_, state_squares_{1};  // of each column; of the states
   StepPolynomial<Method, 0> dense_;
 };
 

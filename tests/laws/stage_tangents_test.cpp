@@ -70,6 +70,21 @@ Eigen::VectorXd difference(Index k, double h, Method method, const Read& read) {
   return (4.0 * pair(u) - pair(2.0 * u)) / 3.0;
 }
 
+/// y'' = -sin y, with the output y^2, which is no entry of the state.
+const Leaf& swing() {
+  static const Leaf leaf("swing", [](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({2.0, 0.1}), .ode = equations<2>([](const auto& at, auto& xdot) {
+                                       using std::sin;
+                                       xdot[0] = at.x(1);
+                                       xdot[1] = -sin(at.x(0));
+                                     })});
+    l.declare_output_port(
+        {.name = "square", .calc = [](const At& at) { return at.x[0] * at.x[0]; }});
+  });
+  return leaf;
+}
+
 }  // namespace
 
 TEST_CASE("the tangent of a linear step is the stability function of the method",
@@ -149,6 +164,30 @@ TEST_CASE("a derivative that moves while the state rests is as good as the toler
   // Ten estimates of one tolerance a step.
   for (const double t : {0.1, 1.0, 2.5, 5.0})
     CHECK_THAT(run.sensitivities_at(t).continuous_state(0, 0), WithinAbs(std::exp(-3.0 * t), 1e-7));
+}
+
+// The rows between the ends of steps are made one by one. d(y^2) = 2 y dy; differences have 1e-10.
+TEST_CASE("rows inside the steps have the derivatives of the state there",
+          "[sensitivity][stages]") {
+  const auto method = GENERATE(Method::dopri5, Method::dop853);
+  const auto [rtol, dense] =
+      GENERATE(table<double, bool>({{1e-3, false}, {1e-3, true}, {1e-8, false}}));
+  INFO("method " << method << ", rtol " << rtol << ", dense " << dense);
+  SimulatorOptions options{.rtol = rtol, .atol = rtol, .ode_solver_method = method};
+  options.sensitivity = {"x[0]", "x[1]"}, options.save_at = {0.1, 0.2, 0.9, 1.7, 2.2, 2.3};
+  options.recorded_signals = {{"square", swing().output(0)}};
+  options.dense_output = dense;
+  const Results rows = simulate(swing(), swing().create_context(), {0.0, 3.0}, options);
+  options.dense_output = true;
+  const Results all_times = simulate(swing(), swing().create_context(), {0.0, 3.0}, options);
+  REQUIRE(rows.time == all_times.time);
+  for (std::size_t i = 0; i < rows.time.size(); ++i) {
+    const double y = all_times.at(rows.time[i]).continuous_state[0];
+    const Eigen::MatrixXd of = all_times.sensitivities_at(rows.time[i]).continuous_state;
+    for (std::size_t k = 0; k < 2; ++k)
+      CHECK_THAT(rows.sensitivities.signals[0][2 * i + k],
+                 WithinAbs(2.0 * y * of(0, static_cast<Index>(k)), 1e-9));
+  }
 }
 
 TEST_CASE("with and without derivatives an explicit run has the same bits",

@@ -79,7 +79,7 @@ class Integration {
   /// begin of the step, if there is only one.
   double joint(double from) { return degree() == 0 ? from : solver_->joint(); }
   /// See Solver::stages.
-  StepStages stages(bool inside) { return still() ? StepStages() : solver_->stages(inside); }
+  StepStages stages() { return still() ? StepStages() : solver_->stages(); }
 
   /// Writes counts, stretches and the method in use.
   void report(Statistics& statistics) const;

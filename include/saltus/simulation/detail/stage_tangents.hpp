@@ -16,14 +16,15 @@ namespace saltus {
 /// no linear solve, and no call of f. It takes no step
 /// - of a flow with a function that is called, or of a method without stages;
 /// - that goes on behind an event inside of it: S has changed there;
-/// - whose error estimate for S is too large. The solver has chosen the size of the step for x, and S may
-///   move where x does not.
+/// - whose error estimate for S is too large beside that of the states, which have chosen the size of the
+///   step: S may move where they rest. Where a switch of the flow changes its side in the step, f_x may
+///   jump, and one tolerance is the most.
 class StageTangents {
  public:
   StageTangents(const Machine& machine, TangentFlow& flow) : flow_(&flow), terms_(machine, flow) {}
 
   /// A run begins.
-  void begin(Variation::Tolerances tolerances);
+  void begin(Variation::Tolerances tolerances, Eigen::VectorXd state_atol);
   /// The columns, or the flow, may have changed.
   void forget() { continues_ = has_step_ = false, chosen_ = false; }
 
@@ -48,12 +49,14 @@ class StageTangents {
  private:
   using Flat = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   void prepare(const StepStages& step, const TangentColumns& columns);
+  bool is_good(const StepStages& step);
   void read(double t, Eigen::MatrixXd& s);
 
   TangentFlow* flow_;
   FlowTerms terms_;
-  double rtol_ = 0.0;
+  double rtol_ = 0.0, most_error_ = 1.0;  // [tolerances] the largest estimate
   Flat atol_;
+  Eigen::VectorXd state_atol_;
   std::unique_ptr<ColumnSteps> steps_;
   decltype(StepStages::make) made_by_ = nullptr;
   int functions_ = -1;      // for which the terms were chosen

@@ -86,7 +86,8 @@ class TangentFlow {
   };
 
   void make();
-  Partials partials(FlowGraph& flow, const Plan& plan, const std::vector<tape::Node>& rows) const;
+  Partials partials(FlowGraph& flow, const Plan& plan, const std::vector<tape::Node>& rows,
+                    bool by_time) const;
   void evaluate(Partials& of, double t, const double* x);
   void exact_at(double t, const double* x, const TangentColumns& columns, Eigen::MatrixXd& jacobian,
                 Eigen::MatrixXd& by);

@@ -16,6 +16,7 @@ struct StepStages {
   std::unique_ptr<ColumnSteps> (*make)(Index n, Index m) = nullptr;
   double t0 = 0.0, t1 = 0.0, h = 0.0;  // [s]
   const double *x0 = nullptr, *x1 = nullptr, *k = nullptr;
+  bool dense = false;  // `k` has the stages that only the dense output reads
 
   explicit operator bool() const noexcept { return make != nullptr; }
 };
@@ -41,15 +42,17 @@ class ColumnSteps {
   /// Goes from s0 to s1. `continues`: s0 is the end of the last step, at the begin of this one.
   virtual void step(const StepStages& step, ColumnRate& rate, const double* s0, double* s1,
                     bool continues) = 0;
-  /// What the step allows as an error: atol_i + rtol max(|s0_i|, |s1_i|).
+  /// What counts as an error of one, in entry i: atol_i + rtol max(|s0_i|, |s1_i|).
   struct Tolerances {
     double rtol;
     const double* atol;
   };
-  /// Whether the error estimate of the method, entry by entry, is at most `most` tolerances. An entry
-  /// that was not finite at the begin does not count.
-  virtual bool within(double most, const StepStages& step, const Tolerances& tolerances,
-                      const double* s0, const double* s1) const = 0;
+  /// The error estimate of the method for the states [tolerances].
+  virtual double state_error(const StepStages& step, const Tolerances& tolerances) = 0;
+  /// The largest of those of the columns, infinite if an entry is not finite. A column that was not
+  /// finite at the begin does not count.
+  virtual double error(const StepStages& step, const Tolerances& tolerances, const double* s0,
+                       const double* s1) = 0;
   /// Prepares `read`. `step.k` has the stages of the dense output too.
   virtual void prepare_dense(const StepStages& step, ColumnRate& rate, const double* s0,
                              const double* s1) = 0;

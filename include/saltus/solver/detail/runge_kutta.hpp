@@ -51,12 +51,18 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
   }
 
   /// The two halves of a step have overwritten its stages.
-  StepStages stages(bool inside) override {
+  StepStages stages() override {
     if (this->is_tangent()) return {};
-    if (inside && !dense_ready_) prepare_dense();
     if constexpr (checks_dense)
       if (dense_ready_ && halves_.used) return {};
-    return {make_column_steps<Method>, t0_, t1_, length_, x0_.data(), x1_.data(), k_.data()};
+    return {make_column_steps<Method>,
+            t0_,
+            t1_,
+            length_,
+            x0_.data(),
+            x1_.data(),
+            k_.data(),
+            dense_ready_};
   }
 
   void watch_stiffness() override { watches_stiffness_ = true; }

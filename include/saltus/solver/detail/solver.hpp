@@ -84,12 +84,6 @@ class Solver {
   /// The time [s] within the last step at which one polynomial ends and the next begins; a time
   /// before the step if there is only one.
   virtual double joint() { return -std::numeric_limits<double>::infinity(); }
-  /// The stages of the last step, if an explicit method has taken it and still has them. `inside`: also
-  /// those that only the dense output reads.
-  virtual StepStages stages(bool inside) {
-    (void)inside;
-    return {};
-  }
   virtual const SolverStatistics& statistics() const = 0;
 
   /// Which method was used when, in order of time.
@@ -104,6 +98,9 @@ class Solver {
   virtual bool finish_step(double t_stop) = 0;
   /// Method in use now, for the statistics.
   virtual std::string method() const = 0;
+  /// The stages of the last step, if an explicit method has taken it and still has them. A call of
+  /// `interpolate` inside the step makes those that only the dense output reads.
+  virtual StepStages stages() { return {}; }
 };
 
 }  // namespace saltus
