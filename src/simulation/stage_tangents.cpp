@@ -54,13 +54,22 @@ bool StageTangents::advance(double from, double to, Integration& integration,
 }
 
 /// Whether S is as good as the states are. Where they have chosen the size of the step by their error, S
-/// has one of the same kind. Where they rest, or an event or the user has cut the step, they have none.
+/// has one of the same kind. Where they rest they have none, and steps are as long as stability
+/// allows, or longer: the factor of a discrete step has nothing to do with the flow there.
 bool StageTangents::is_good(const StepStages& step) {
   using namespace thresholds;
-  const double error = steps_->error(step, {rtol_, atol_.data()}, s0_.data(), s1_.data());
-  if (terms_.crossed() || error <= 1.0) return error <= 1.0;
+  // The absolute tolerance is in units of the parameter, and means nothing where that is tiny.
+  inside_ = atol_;
+  for (Index k = 0; k < s0_.cols(); ++k) {
+    const double size =
+        std::max(s0_.col(k).cwiseAbs().maxCoeff(), s1_.col(k).cwiseAbs().maxCoeff());
+    if (rtol_ * size > 0.0) inside_.col(k) = inside_.col(k).cwiseMin(rtol_ * size);
+  }
+  const double error = steps_->error(step, {rtol_, inside_.data()}, s0_.data(), s1_.data());
+  if (error <= free_stage_error) return true;
+  if (terms_.crossed()) return error <= 1.0;
   const double of_states = steps_->state_error(step, {rtol_, state_atol_.data()});
-  return error <= most_error_ * std::clamp(of_states, free_stage_share, 1.0);
+  return error <= most_error_ * std::min(of_states, 1.0);
 }
 
 bool StageTangents::prepare_inside() {

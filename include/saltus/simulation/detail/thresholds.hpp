@@ -175,13 +175,13 @@ inline constexpr double resting_share = 1e-3;
 // --- derivatives through the stages of a step: stage_tangents.cpp (tests/laws/stage_tangents_test.cpp)
 
 /// [tolerances] and [of an entry of S] The largest error estimate of an entry of S in a step that the
-/// states have chosen. The estimate is that of the lower order. Of four species, by sixteen parameters, half
-/// of the steps have 10 to 40, and with 300 the error at the end is at most twice that of steps which
-/// obey the tolerance; a state at rest has 1e4 and more in its first steps.
+/// states have chosen, where the states have one of 1. The estimate is that of the lower order. Of four
+/// species, by sixteen parameters, half of the steps have 10 to 40, and with 300 the error at the end is at most
+/// twice that of steps which obey the tolerance.
 inline constexpr double most_stage_error = 300.0;
 inline constexpr double most_stage_share = 0.1;
-/// [of `most_stage_error`] What is allowed where the states themselves have no error, as at rest.
-inline constexpr double free_stage_share = 0.03;
+/// [tolerances] What is allowed where the states themselves have no error, as at rest.
+inline constexpr double free_stage_error = 0.01;
 /// [eps] The rounding of an entry of S that its estimate may have.
 inline constexpr double stage_rounding = 1e3;
 
