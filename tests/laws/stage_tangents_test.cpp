@@ -157,9 +157,7 @@ TEST_CASE("the order of the derivatives is that of the method", "[sensitivity][s
 TEST_CASE("a derivative that moves while the state rests is as good as the tolerance",
           "[sensitivity][stages]") {
   const auto method = GENERATE(Method::dopri5, Method::dop853);
-  // A tiny start is no measure of the error of a derivative by it.
-  const double start = GENERATE(0.0, 1e-18);
-  const Leaf leaf = decay(-3.0, start);
+  const Leaf leaf = decay(-3.0, 0.0);
   SimulatorOptions options{.rtol = 1e-8, .atol = 1e-10, .ode_solver_method = method};
   options.dense_output = true, options.sensitivity = {"x[0]"};
   const Results run = simulate(leaf, leaf.create_context(), {0.0, 5.0}, options);
