@@ -4,11 +4,23 @@
 
 namespace saltus {
 
+namespace {
+
+/// Whether a recorded signal is entries of the state.
+bool is_view(const Plan& plan, const Tap& tap) {
+  const Space space = plan.node(tap.node).place.space;
+  return space == Space::x || space == Space::z;
+}
+
+}  // namespace
+
 Eigen::MatrixXd signal_tangents(TangentProbe& probe, const Plan& plan, double t, const double* x,
                                 const TangentColumns& at) {
   Index width = 0;
   for (const Tap& tap : plan.taps) width += plan.node(tap.node).place.size;
-  Eigen::MatrixXd all(width, at.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(width, at.size());
+  if (std::ranges::all_of(plan.taps, [&](const Tap& tap) { return is_view(plan, tap); }))
+    return all;
   const auto read = [&](Machine& moved, double, double* out) {
     const Values values = moved.evaluate_taps(t, moved.x.data());
     for (const Tap& tap : plan.taps) {

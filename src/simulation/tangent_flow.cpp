@@ -61,7 +61,7 @@ void TangentFlow::make() {
   if (!flow.obstacle.empty()) return chain(), void();
   std::vector<tape::Node> rows(flow.rates.begin(), flow.rates.end());
   reads_time_ = read_time(flow.graph, rows);
-  rates_ = partials(flow, plan, rows);
+  rates_ = partials(flow, plan, rows, false);
   const std::vector<tape::Node> switches = tape::switches_of(flow.graph, rows);
   if (!switches.empty()) switches_.emplace(flow.graph, switches);
   rows.clear();
@@ -70,11 +70,12 @@ void TangentFlow::make() {
     row_of_slot_[slot] = static_cast<Index>(rows.size());
     rows.push_back(*flow.guards[slot]);
   }
-  guards_ = partials(flow, plan, rows);
+  guards_ = partials(flow, plan, rows, true);
 }
 
 TangentFlow::Partials TangentFlow::partials(FlowGraph& flow, const Plan& plan,
-                                            const std::vector<tape::Node>& rows) const {
+                                            const std::vector<tape::Node>& rows,
+                                            bool by_time) const {
   std::vector<tape::Node> variables;
   std::vector<std::pair<Variable, Index>> names;
   const auto add_one = [&](Variable kind, Index i, tape::Node node) {
@@ -88,7 +89,7 @@ TangentFlow::Partials TangentFlow::partials(FlowGraph& flow, const Plan& plan,
   add(Variable::z, plan.nz, [&](Index i) { return graph.input(0, i); });
   add(Variable::y, plan.ny, [&](Index i) { return graph.discrete_state(i); });
   for (const Index i : moved_) add_one(Variable::p, i, graph.parameter(i));
-  add(Variable::t, 1, [&](Index) { return graph.time(); });
+  if (by_time) add_one(Variable::t, 0, graph.time());
   std::vector<Entry> entries;
   std::vector<tape::Node> values;
   for (const tape::Partial& one : tape::differentiate(graph, rows, variables)) {
@@ -141,6 +142,15 @@ bool TangentFlow::rests_at_switch(double t, const double* x, const Eigen::Vector
   for (Index k = 0; k < count; k += tape::numbers_of_switch)
     if (has_switch_at_limit(&here[k], 1) && has_switch_at_limit(&there[k], 1)) return true;
   return false;
+}
+
+void TangentFlow::sides_of_switches(double t, const double* x, std::vector<char>& sides) {
+  sides.clear();
+  if (!switches_) return;
+  switch_values_.resize(switches_->size());
+  variables_.at(t, x, [&](const At& at) { switches_->evaluate(at, switch_values_.data()); });
+  for (Index k = 0; k < switch_values_.size(); k += tape::numbers_of_switch)
+    sides.push_back(switch_values_[k] > switch_values_[k + 1] ? 1 : 0);
 }
 
 bool TangentFlow::bends(double t, const double* x, const TangentDirection& along) {

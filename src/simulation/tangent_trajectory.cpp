@@ -91,7 +91,7 @@ TangentTrajectory::Moment TangentTrajectory::at(double t, Side side) const {
   const bool at_begin = side == Side::right && t == found.s.from;
   Moment moment{held_[found.held].columns, &held_[found.held].rests,
                 &sizes_[at_begin ? found.sizes_at_begin : found.sizes]};
-  moment.columns.x = found.s.s.size() == 1 ? found.s.s.front() : found.s.at(t);
+  moment.columns.x = found.s.at(t);
   return moment;
 }
 

@@ -34,6 +34,7 @@ Tangents::Tangents(const Machine& machine, const GuardSet& guards, const Simulat
       flow_(machine, probe_),
       jumps_(flow_, probe_),
       times_(machine, guards, options, flow_, probe_),
+      stages_(machine, flow_),
       gaps_(columns_, results),
       events_(columns_, gaps_, results),
       rows_(machine, options, probe_, gaps_, results) {
@@ -69,7 +70,10 @@ void Tangents::begin(const Context& start) {
       atol(j, k) = options_->atol[j] / (value == 0.0 ? 1.0 : std::abs(value));
   }
   rows_.begin(std::move(names));
-  variation_.emplace(Variation::Tolerances{options_->rtol.smallest(), std::move(atol)});
+  const Variation::Tolerances tolerances{options_->rtol.smallest(), std::move(atol)};
+  Eigen::VectorXd state_atol(plan.nx);
+  for (Index j = 0; j < plan.nx; ++j) state_atol[j] = options_->atol[j];
+  stages_.begin(tolerances, std::move(state_atol)), variation_.emplace(tolerances);
   columns_.t.setZero(m);
   waits_.begin(m), guard_sizes_.setZero(machine_->plan().look_slots);
   jumps_.begin(plan.nx), gaps_.begin(), events_.begin(), one_sided_.begin();
@@ -136,38 +140,60 @@ void Tangents::step(double from, double to, Integration& integration) {
   gaps_.forget_end();
   t_ = to;
   if (integration.started() && machine_->plan().nx > 0) solve(from, to, integration);
-  if (options_->dense_output)
-    results_->sensitivities.trajectory.add(from, to, variation_->pieces(), columns_,
-                                           machine_->resting(), probe_.sizes());
+  if (!options_->dense_output) return;
+  if (stages_.has_step()) need_inside();
+  results_->sensitivities.trajectory.add(from, to, variation_->pieces(), columns_,
+                                         machine_->resting(), probe_.sizes());
 }
 
-/// Solves the linear equation along the step.
+/// Carries the columns along the step: through the stages of the solver, or by the linear equation.
 void Tangents::solve(double from, double to, Integration& integration) {
   // A step of some roundings of the time was cut by an event, and says nothing about the scale of it.
   const bool cut =
       to - from <= least_step * thresholds::eps * std::max(std::abs(from), std::abs(to));
   probe_.note(integration.state().data(), cut ? 0.0 : to - from);
+  const bool by_stages = stages_.advance(from, to, integration, columns_);
+  if (by_stages && !stages_.crossed_switch()) return;
   flow_.forget_obstacle();
+  if (!by_stages) {
+    collocate(from, to, integration, columns_.x);
+    gaps_.lose_not_finite(t_, flow_.obstacle());
+  }
+  look_for_jump(from, to, [&](double t) {
+    Eigen::VectorXd x = integration.state();
+    if (t < to) integration.interpolate(t, x.data());
+    return x;
+  });
+}
+
+/// Solves the linear equation along the step.
+void Tangents::collocate(double from, double to, Integration& integration, Eigen::MatrixXd& s) {
   Eigen::VectorXd x(machine_->plan().nx);
   const auto equation = [&](double t, Eigen::MatrixXd& a, Eigen::MatrixXd& b) {
-    if (t < to)
-      integration.interpolate(t, x.data());
-    else
-      x = integration.state();
+    x = integration.state();
+    if (t < to) integration.interpolate(t, x.data());
     flow_.at(t, x.data(), columns_, a, b);
   };
   const double joint = integration.joint(from);
   const double middle = from < joint && joint < to ? joint : from;
-  variation_->advance(from, middle, equation, columns_.x);
-  variation_->advance(middle, to, equation, columns_.x);
-  gaps_.lose_not_finite(t_, flow_.obstacle());
-  look_for_jump(from, to, [&](double t) {
-    if (t < to)
-      integration.interpolate(t, x.data());
-    else
-      x = integration.state();
-    return x;
-  });
+  variation_->advance(from, middle, equation, s);
+  variation_->advance(middle, to, equation, s);
+}
+
+/// Where the solver has the stages of the step no more, the linear equation has the values in between.
+void Tangents::need_inside() {
+  if (!variation_->pieces().empty()) return;
+  if (auto piece = stages_.piece()) return variation_->keep(std::move(*piece));
+  Eigen::MatrixXd s = stages_.begin_of_step();
+  collocate(stages_.from(), t_, stages_.integration(), s);
+}
+
+void Tangents::inside(double t, Eigen::MatrixXd& s) {
+  if (variation_->pieces().empty() && stages_.has_step()) {
+    if (stages_.at(t, s)) return;
+    need_inside();
+  }
+  variation_->at(t, s);
 }
 
 /// f may jump where the state is, without an event: a branch that no guard announces. The jump would
@@ -185,7 +211,7 @@ void Tangents::look_for_jump(double from, double to, const FlowJumps::StateAt& s
 void Tangents::monitor(const MonitorHit& hit, const double* x) {
   const GuardGroup& group = machine_->plan().guard((*guards_)[hit.firing.guard()].group);
   TangentColumns at = columns_;
-  if (hit.t < t_) variation_->at(hit.t, at.x);
+  if (hit.t < t_) inside(hit.t, at.x);
   const MovedTime moved =
       group.is_opaque() ? MovedTime{.by = Eigen::RowVectorXd::Constant(size(), TangentGaps::none)}
                         : times_.of_crossing(hit.firing.slot, group.name, hit.t, x, at);
@@ -199,7 +225,7 @@ void Tangents::monitor(const MonitorHit& hit, const double* x) {
 void Tangents::record(double t, const double* x) {
   if (phase_ == Phase::opened) return rows_.add(t, x, before_, one_sided_);
   TangentColumns at = columns_;
-  if (!in_instant() && t < t_) variation_->at(t, at.x);
+  if (!in_instant() && t < t_) inside(t, at.x);
   fix_time(probe_, t, x, at);
   if (in_instant()) one_sided_.judge(t, *machine_, columns_, at, cause());  // up to this pass
   rows_.add(t, x, at, one_sided_);

@@ -18,6 +18,8 @@ void Tangents::open(const Present& present, const std::vector<int>& due,
                     const std::vector<DueNow>& waiting) {
   t_ = present.t, phase_ = Phase::opened;
   const double* x = machine_->x.data();
+  // A monitor of the last step may be judged in the instant.
+  if (!guards_->monitors.empty() && stages_.has_step()) need_inside();
   before_ = columns_;
   fix_time(probe_, t_, x, before_);
   one_sided_.open(*machine_, before_);
@@ -96,7 +98,7 @@ void Tangents::close() {
   if (!flow_.autonomous()) columns_ = std::move(fixed);
   phase_ = Phase::between;
   look_at_kinks();
-  variation_->forget();
+  variation_->forget(), stages_.forget();
   if (options_->dense_output) results_->sensitivities.trajectory.instant(probe_.sizes());
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
 #include <Eigen/LU>
 
@@ -17,6 +18,15 @@ constexpr int points = stages + 1;
 /// The begin of a step and the Radau points, as parts of it.
 constexpr std::array<double, points> radau_points{
     0.0, 0.05710419611451768, 0.27684301363812383, 0.5835904323689168, 0.8602401356562195, 1.0};
+/// The begin of a step, the extrema of a Chebyshev polynomial of degree 7, and its end.
+constexpr std::array<double, Variation::most_nodes> many_nodes{0.0,
+                                                               0.04951556604879043,
+                                                               0.1882550990706332,
+                                                               0.3887395330218428,
+                                                               0.6112604669781572,
+                                                               0.8117449009293667,
+                                                               0.9504844339512096,
+                                                               1.0};
 /// Where the polynomial is compared with the equation: far from the points.
 constexpr double looked_at = 0.72;
 /// A step is halved so often at most. The polynomial has degree 5, so ten halvings reduce its error
@@ -30,12 +40,15 @@ constexpr double falling_share = 0.5;
 constexpr double value_rounding = 1e3 * thresholds::eps;
 
 /// The Lagrange polynomial of node i at s, without the factor of node `but`.
-double basis(int i, double s, int but) {
+double basis(std::span<const double> nodes, std::size_t i, double s, std::size_t but) {
   double product = 1.0;
-  for (int j = 0; j < points; ++j) {
-    if (j != i && j != but) product *= (s - radau_points[j]) / (radau_points[i] - radau_points[j]);
+  for (std::size_t j = 0; j < nodes.size(); ++j) {
+    if (j != i && j != but) product *= (s - nodes[j]) / (nodes[i] - nodes[j]);
   }
   return product;
+}
+double basis(int i, double s, int but) {
+  return basis(radau_points, static_cast<std::size_t>(i), s, static_cast<std::size_t>(but));
 }
 /// Its derivative.
 double slope(int i, double s) {
@@ -126,6 +139,11 @@ Eigen::MatrixXd solved(Variation::Rows& all) {
 
 }  // namespace
 
+std::span<const double> Variation::nodes_of(std::size_t count) {
+  if (count == many_nodes.size()) return many_nodes;
+  return radau_points;
+}
+
 Variation::Variation(Tolerances tolerances)
     : tolerances_(std::move(tolerances)), a_(stages), b_(stages) {}
 
@@ -198,8 +216,12 @@ double Variation::error_of(const Piece& piece, const Equation& equation) {
 }
 
 Eigen::MatrixXd Variation::Piece::at(double t) const {
+  if (s.size() == 1) return s.front();
   const double part = (t - from) / (to - from);
-  return sum(s, bases_at(part));
+  const std::span<const double> nodes = nodes_of(s.size());
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(s.front().rows(), s.front().cols());
+  for (std::size_t j = 0; j < s.size(); ++j) out += basis(nodes, j, part, s.size()) * s[j];
+  return out;
 }
 
 bool Variation::at(double t, Eigen::MatrixXd& s) const {

@@ -78,6 +78,8 @@ class Integration {
   /// [s] The time at which the first of the two polynomials of the last step ends; `from`, the
   /// begin of the step, if there is only one.
   double joint(double from) { return degree() == 0 ? from : solver_->joint(); }
+  /// See Solver::stages.
+  StepStages stages() { return still() ? StepStages() : solver_->stages(); }
 
   /// Writes counts, stretches and the method in use.
   void report(Statistics& statistics) const;

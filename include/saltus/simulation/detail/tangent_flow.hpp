@@ -44,6 +44,29 @@ class TangentFlow {
 
   /// Whether the derivatives of the flow are exact.
   bool exact() const noexcept { return rates_.has_value(); }
+
+  enum class Variable { x, z, y, p, t };
+  /// The derivative of row `row` by one variable. For p, `index` is an entry of all parameters.
+  struct Entry {
+    Index row;
+    Variable kind;
+    Index index;
+  };
+  /// The exact derivatives of the rates, which are expressions; those that are zero are left out.
+  const std::vector<Entry>& rate_entries() const { return rates_->entries; }
+  /// Their values at (t, x), which last until the next call.
+  const double* rates_at(double t, const double* x) {
+    evaluate(*rates_, t, x);
+    return rates_->values.data();
+  }
+  /// Makes the derivatives of the functions that the machine has now. Their number changes with them.
+  int renew() {
+    if (functions_ != machine_->functions()) make();
+    return functions_;
+  }
+  bool has_switches() const noexcept { return switches_.has_value(); }
+  /// Writes 1 for each switch of the flow whose first number is the larger one at (t, x), else 0.
+  void sides_of_switches(double t, const double* x, std::vector<char>& sides);
   /// Whether the flow is known not to depend on the time itself.
   bool autonomous() const;
   /// Why a derivative of the flow was NaN since `forget_obstacle`; empty if no function says.
@@ -55,12 +78,6 @@ class TangentFlow {
   std::string describe() const;
 
  private:
-  enum class Variable { x, z, y, p, t };
-  struct Entry {
-    Index row;
-    Variable kind;
-    Index index;
-  };
   /// Derivatives of some rows as one tape.
   struct Partials {
     std::vector<Entry> entries;
@@ -69,7 +86,8 @@ class TangentFlow {
   };
 
   void make();
-  Partials partials(FlowGraph& flow, const Plan& plan, const std::vector<tape::Node>& rows) const;
+  Partials partials(FlowGraph& flow, const Plan& plan, const std::vector<tape::Node>& rows,
+                    bool by_time) const;
   void evaluate(Partials& of, double t, const double* x);
   void exact_at(double t, const double* x, const TangentColumns& columns, Eigen::MatrixXd& jacobian,
                 Eigen::MatrixXd& by);
@@ -88,7 +106,8 @@ class TangentFlow {
   bool reads_time_ = true;
   std::optional<Partials> rates_, guards_;
   std::optional<tape::Tape> switches_;  // of the rates, if they have any
-  std::vector<Index> row_of_slot_;      // of `guards_`; -1: the guard is called
+  Eigen::VectorXd switch_values_;
+  std::vector<Index> row_of_slot_;  // of `guards_`; -1: the guard is called
 };
 
 }  // namespace saltus

@@ -14,6 +14,7 @@
 #include "saltus/simulation/detail/inputs_before.hpp"
 #include "saltus/simulation/detail/integration.hpp"
 #include "saltus/simulation/detail/present.hpp"
+#include "saltus/simulation/detail/stage_tangents.hpp"
 #include "saltus/simulation/detail/tangent_events.hpp"
 #include "saltus/simulation/detail/tangent_rows.hpp"
 #include "saltus/simulation/detail/tangent_times.hpp"
@@ -148,6 +149,10 @@ class Tangents {
     gaps_.lose(t_, k, event, reason);
   }
   void solve(double from, double to, Integration& integration);
+  void collocate(double from, double to, Integration& integration, Eigen::MatrixXd& s);
+  /// S at a time within the last step; as it is if there was none.
+  void inside(double t, Eigen::MatrixXd& s);
+  void need_inside();
   void look_for_jump(double from, double to, const FlowJumps::StateAt& state);
 
   const Machine* machine_;
@@ -159,6 +164,7 @@ class Tangents {
   TangentFlow flow_;
   FlowJumps jumps_;
   TangentTimes times_;
+  StageTangents stages_;
   std::optional<Variation> variation_;
   TangentColumns columns_;  // of the state between instants, then of the instant
   TangentColumns before_;   // at a fixed time before the instant

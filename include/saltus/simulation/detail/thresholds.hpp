@@ -180,6 +180,19 @@ inline constexpr double idle_share = 1e-7;
 inline constexpr std::int64_t resting_events = 1'000'000;
 inline constexpr double resting_share = 1e-3;
 
+// --- derivatives through the stages of a step: stage_tangents.cpp (tests/laws/stage_tangents_test.cpp)
+
+/// [tolerances] and [of an entry of S] The largest error estimate of an entry of S in a step that the
+/// states have chosen, where the states have one of 1. The estimate is that of the lower order. Of four
+/// species, by sixteen parameters, half of the steps have 10 to 40, and with 300 the error at the end is at most
+/// twice that of steps which obey the tolerance.
+inline constexpr double most_stage_error = 300.0;
+inline constexpr double most_stage_share = 0.1;
+/// [tolerances] What is allowed where the states themselves have no error, as at rest.
+inline constexpr double free_stage_error = 0.01;
+/// [eps] The rounding of an entry of S that its estimate may have.
+inline constexpr double stage_rounding = 1e3;
+
 // --- crawling along a jump of a derivative: crawl.cpp (tests/laws/crawl_test.cpp)
 
 /// [steps] of the first window. A jump that is passed costs some forty steps.

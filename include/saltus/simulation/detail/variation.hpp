@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -26,7 +27,12 @@ class Variation {
     Eigen::MatrixXd atol;  ///< of each entry of S
   };
 
-  /// S from `from` to `to` [s]: the polynomial through its values at the begin and at the points.
+  /// The nodes of a polynomial, as parts of a step: the begin and the Radau points, or those of a
+  /// polynomial of degree 7.
+  static constexpr std::size_t few_nodes = stages + 1, most_nodes = 8;
+  static std::span<const double> nodes_of(std::size_t count);
+
+  /// S from `from` to `to` [s]: the polynomial through its values at the nodes, or a constant.
   struct Piece {
     double from, to;
     std::vector<Eigen::MatrixXd> s;
@@ -37,6 +43,8 @@ class Variation {
 
   /// Advances S from `from` to `to` [s], and keeps its values in between.
   void advance(double from, double to, const Equation& equation, Eigen::MatrixXd& s);
+  /// Keeps values that were found elsewhere.
+  void keep(Piece piece) { pieces_.push_back(std::move(piece)); }
   /// Forgets the values in between.
   void forget() { pieces_.clear(); }
   /// S at a time within the steps since `forget`; false if there were none around it.

@@ -66,6 +66,7 @@ class AutoSolver final : public Solver {
   void interpolate(double t, double* x) override { active().interpolate(t, x); }
   int degree() const override { return active().degree(); }
   double joint() override { return active().joint(); }
+  StepStages stages() override { return active().stages(); }
   double time() const override { return active().time(); }
   const Eigen::VectorXd& state() const override { return active().state(); }
   bool at_step_end() const override { return active().at_step_end(); }

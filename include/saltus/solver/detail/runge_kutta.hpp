@@ -50,6 +50,21 @@ class RungeKutta final : public StepSolver<RungeKutta<Method, N>, OneStepSolver>
     return -infinite;
   }
 
+  /// The two halves of a step have overwritten its stages.
+  StepStages stages() override {
+    if (this->is_tangent()) return {};
+    if constexpr (checks_dense)
+      if (dense_ready_ && halves_.used) return {};
+    return {make_column_steps<Method>,
+            t0_,
+            t1_,
+            length_,
+            x0_.data(),
+            x1_.data(),
+            k_.data(),
+            dense_ready_};
+  }
+
   void watch_stiffness() override { watches_stiffness_ = true; }
   StiffnessTest& stiffness() override { return stiff_; }
   double stability() const override { return Method::stability; }

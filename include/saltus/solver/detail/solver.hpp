@@ -8,6 +8,7 @@
 
 #include "saltus/base/list.hpp"
 #include "saltus/plan/detail/machine.hpp"
+#include "saltus/solver/detail/column_steps.hpp"
 #include "saltus/solver/detail/guard_set.hpp"
 #include "saltus/solver/linear_solver.hpp"
 #include "saltus/solver/statistics.hpp"
@@ -97,6 +98,9 @@ class Solver {
   virtual bool finish_step(double t_stop) = 0;
   /// Method in use now, for the statistics.
   virtual std::string method() const = 0;
+  /// The stages of the last step, if an explicit method has taken it and still has them. A call of
+  /// `interpolate` inside the step makes those that only the dense output reads.
+  virtual StepStages stages() { return {}; }
 };
 
 }  // namespace saltus

@@ -135,6 +135,8 @@ class StepSolver : public Interface {
 
  protected:
   const double* end_guards() const { return nullptr; }
+  /// Whether the last step is none of the method's, but one along the tangent.
+  bool is_tangent() const noexcept { return static_cast<bool>(tangent_); }
   /// The number of evenly spaced looks inside a step.
   int even_looks() { return self().degree(); }
   /// See LookPoints; null: the method knows its guards by their values only.
