@@ -88,9 +88,7 @@ class FastGuards {
   /// The nodes behind the guards. Nothing is asked of other nodes.
   detail::Marks behind_guards() const {
     std::vector<int> roots;
-    for (const GuardGroup& group : plan_.guards)
-      detail::append(roots, group.is_crossing() ? nodes_of_guard(plan_, group)
-                                                : plan_.node(group.index).needs);
+    for (const GuardGroup& group : plan_.guards) detail::append(roots, nodes_read(plan_, group));
     detail::Marks marks(plan_.nodes.size(), 0);
     detail::spread(plan_, roots, marks,
                    [](const Node& node) { return node.rate != Rate::continuous; });

@@ -16,6 +16,7 @@ struct LookVariation {
   double range;  ///< between the least and the greatest of the values
   double least;  ///< the distance from zero of the nearer of the last two; 0 if they differ in sign
   bool jumps_once = false;  ///< it has two values, and changed once, in looks near to each other
+  bool crosses = false;     ///< the last two values have different signs
 
   /// Whether the guard may have crossed zero where the looks do not show it.
   bool hides() const {

@@ -28,7 +28,7 @@ struct FourLooks {
     const bool crosses = (g2 > 0.0) != (g3 > 0.0);
     return {std::abs(bound.of(g0, g1, g2, g3)), greatest - least,
             crosses ? 0.0 : std::min(std::abs(g2), std::abs(g3)),
-            near && (g0 == g1) + (g1 == g2) + (g2 == g3) == 2};
+            near && (g0 == g1) + (g1 == g2) + (g2 == g3) == 2, crosses};
   }
   /// The same of a value that guards read. No place of it is known where they change, so it may do so
   /// anywhere, and it has to be shown better than a guard. What the roundings of the value and of the
@@ -79,7 +79,7 @@ class PieceJudge {
   }
   /// Whether some guard crosses zero between the last two looks.
   bool crosses(const FourLooks& looks) const {
-    return any(looks, [](std::size_t, const LookVariation& each) { return each.least == 0.0; });
+    return any(looks, [](std::size_t, const LookVariation& each) { return each.crosses; });
   }
   /// The shortest piece hides something: notes which guards do.
   void note_in_vain(const FourLooks& looks) {
