@@ -122,7 +122,8 @@ class PacedSearch : protected TimedSearch {
   /// Where the next look is, in a piece that may be divided.
   double next_look(double from, double to) const {
     const double piece = pace_.next(to - from);
-    return piece >= to - from ? to : from + pace_.part() * piece;
+    if (piece >= to - from) return to;
+    return from + (follow_time() ? pace_.part() : 1.0) * piece;
   }
 
   /// A piece that is not halved: the looks grow apart after it where they may.
