@@ -8,7 +8,7 @@ namespace saltus {
 
 void StageTangents::begin(Variation::Tolerances tolerances, Eigen::VectorXd state_atol) {
   using namespace thresholds;
-  rtol_ = tolerances.rtol + stage_rounding * eps;
+  rtol_ = tolerances.rtol + stage_rounding * thresholds::eps;
   atol_ = tolerances.atol, state_atol_ = std::move(state_atol);
   most_error_ = std::clamp(most_stage_share / rtol_, 1.0, most_stage_error);
   made_by_ = nullptr;
