@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "saltus/base/detail/forced_unwind.hpp"
+#include "saltus/base/detail/is_defined.hpp"
 #include "saltus/simulation/detail/thresholds.hpp"
 
 namespace saltus {
@@ -152,14 +152,7 @@ bool Poles::stays_large(double t) {
 /// |f| times the distance from t, at a state that the solution need not reach: false if it is not
 /// defined there.
 bool Poles::area(double t, double at, const Eigen::VectorXd& x, Eigen::VectorXd& out) {
-  try {
-    machine_->derivative(at, x.data(), out.data());
-  } catch (const Interruption&) {
-    throw;
-  } catch (...) {
-    detail::pass_end_of_thread();
-    return false;
-  }
+  if (!detail::is_defined([&] { machine_->derivative(at, x.data(), out.data()); })) return false;
   out = out.cwiseAbs() * std::abs(at - t);
   return !out.hasNaN();
 }

@@ -41,7 +41,7 @@ bool StageTangents::advance(double from, double to, Integration& integration,
   steps_->step(step, terms_, s0_.data(), s1_.data(), continues);
   terms_.end_step();
   if (!is_good(step)) return false;
-  from_ = from, to_ = to, t0_ = step.t0, t1_ = step.t1, h_ = step.h;
+  from_ = from, to_ = to, t1_ = step.t1, h_ = step.h;
   integration_ = &integration;
   dense_ready_ = false, has_step_ = true;
   if (to == step.t1) {
@@ -59,13 +59,13 @@ bool StageTangents::advance(double from, double to, Integration& integration,
 bool StageTangents::is_good(const StepStages& step) {
   using namespace thresholds;
   // The absolute tolerance is in units of the parameter, and means nothing where that is tiny.
-  inside_ = atol_;
+  allowed_ = atol_;
   for (Index k = 0; k < s0_.cols(); ++k) {
     const double size =
         std::max(s0_.col(k).cwiseAbs().maxCoeff(), s1_.col(k).cwiseAbs().maxCoeff());
-    if (rtol_ * size > 0.0) inside_.col(k) = inside_.col(k).cwiseMin(rtol_ * size);
+    if (rtol_ * size > 0.0) allowed_.col(k) = allowed_.col(k).cwiseMin(rtol_ * size);
   }
-  const double error = steps_->error(step, {rtol_, inside_.data()}, s0_.data(), s1_.data());
+  const double error = steps_->error(step, {rtol_, allowed_.data()}, s0_.data(), s1_.data());
   if (error <= free_stage_error) return true;
   if (terms_.crossed()) return error <= 1.0;
   const double of_states = steps_->state_error(step, {rtol_, state_atol_.data()});
@@ -75,9 +75,9 @@ bool StageTangents::is_good(const StepStages& step) {
 bool StageTangents::prepare_inside() {
   if (dense_ready_) return true;
   Eigen::VectorXd x(s0_.rows());
-  integration_->interpolate(t0_ + 0.5 * h_, x.data());  // the solver makes its dense output
+  integration_->interpolate(from_ + 0.5 * h_, x.data());  // the solver makes its dense output
   const StepStages step = integration_->stages();
-  if (!step || step.t0 != t0_ || !step.dense) return false;
+  if (!step || step.t0 != from_ || !step.dense) return false;
   steps_->prepare_dense(step, terms_, s0_.data(), s1_.data());
   inside_.resize(s0_.rows(), s0_.cols());
   return dense_ready_ = true;
@@ -85,7 +85,7 @@ bool StageTangents::prepare_inside() {
 
 void StageTangents::read(double t, Eigen::MatrixXd& s) {
   if (t == t1_) return s = s1_, void();
-  steps_->read((t - t0_) / h_, s0_.data(), inside_.data());
+  steps_->read((t - from_) / h_, s0_.data(), inside_.data());
   s = inside_;
 }
 

@@ -1,5 +1,7 @@
 // Guards with effects that turn while the states hardly move: after each firing the flow decides the side of
 // the guard, and it has to be looked at before the guard turns.
+#include <stdexcept>
+
 #include "support/cases.hpp"
 #include "support/sine.hpp"
 
@@ -66,4 +68,26 @@ TEST_CASE("each firing of a guard that turns while the states hardly move is fou
       CHECK(results.context.discrete_state()[0] == static_cast<double>(scene.crossings().size()));
     }
   }
+}
+
+/// x' = 1 from a thousandth, so that x - t is a thousandth along the flow. The guard has no value where x is
+/// less than the time, as it is at a later time with the same state.
+TEST_CASE("a called guard may refuse a state that does not belong to the time", "[laws][guards]") {
+  const auto method = GENERATE(from_range(methods));
+  const double rtol = GENERATE(1e-2, 1e-3, 1e-6), apart = 1e-3;
+  const auto leaf = make_leaf("leaf", [=](Leaf& l) {
+    declare_ramp(l, 1.0, apart);
+    l.declare_discrete_state(vec({0.0}));
+    l.declare_zero_crossing({.name = "hit",
+                             .guard =
+                                 [](const At& at) {
+                                   if (at.x[0] < at.time) throw std::domain_error("x < t");
+                                   return std::sin(5.0 * at.time + phase);
+                                 },
+                             .reset_map = count_up});
+  });
+  const auto results = simulate(*leaf, leaf->create_context(), {0.0, 10.0},
+                                {.rtol = rtol, .ode_solver_method = method});
+  within(text("guard that refuses ", rtol), method,
+         worst(firing_times(results.events), sine_crossings(5.0, 0.0, 10.0)), 200.0 * eps * 10.0);
 }

@@ -14,8 +14,8 @@ Roots find_shapes_and_rates(Plan& plan);
 /// distance of the looks.
 void add_reads_of_guards(Plan& plan);
 
-/// Finds which guards may turn within a step that suits the states: those that follow the time itself, and
-/// those of a sine or the like of a state.
+/// Finds the guards that may turn within a step although the step suits the states: a guard that the time
+/// itself moves, and a guard that a sine, a remainder or a floor of a state moves.
 void find_guards_that_turn(Plan& plan);
 
 /// The other passes: needs, guards, edges, schedule, fused formulas.

@@ -7,18 +7,19 @@
 #include <cstdint>
 #include <utility>
 
+#include "saltus/base/detail/is_defined.hpp"
 #include "saltus/simulation/detail/early_looks.hpp"
 #include "saltus/simulation/detail/flow_probe.hpp"
 #include "saltus/solver/detail/guard.hpp"
-#include "saltus/solver/detail/timed_search.hpp"
+#include "saltus/solver/detail/time_probe.hpp"
 
 namespace saltus {
 
 /// The first time is that in which a state that the guard depends on moves by its tolerance: before it, the
-/// error of the state may decide the side of the guard. The time has no such error. So a guard that turns
-/// by the time within the first time, as sin(50 t) beside a slow state does, has a shorter one: the longest
-/// of those that are eight times shorter each, in which looks show how the guard moves, and the time
-/// moves it one way. Looks have to show a guard that turns by a state, too, as sin(50 x) does.
+/// error of the state may decide the side of the guard. The time has no such error. So the first time of a
+/// guard that turns by the time, as sin(50 t) beside a slow state does, is divided by eight until looks
+/// show how the guard moves in it, and the time moves the guard one way. The first time of a guard that
+/// turns by a state, as sin(50 x) does, is divided until looks show how the guard moves.
 class FirstTime : public FlowProbe {
  public:
   /// See FlowProbe::count_from.
@@ -95,16 +96,24 @@ class FirstTime : public FlowProbe {
     double d = time_of_states(group);
     if (!may_turn(group)) return d;
     if (group.turns) d = shown_time(Along::line, d, slot);
-    return follows_time(group, d, slot) ? shown_time(Along::time, d, slot) : d;
+    if (!follows_time(group, d, slot)) return d;
+    g0(slot);  // an exception at the point itself is one of the run
+    double by_time = d;
+    detail::is_defined([&] { by_time = shown_time(Along::time, d, slot); });
+    return by_time;
   }
 
-  /// Whether the time alone moves a guard. A called one is asked by one look, now and then.
+  /// Whether the time alone moves a guard. A called one is asked by one look, now and then. It may refuse
+  /// the state, which does not belong to the time of the look: then nothing is known.
   bool follows_time(const GuardGroup& group, double d, Index slot) {
     TimeProbe& probe = probes_[group_of(slot)];
     if (group.follows_time == FollowsTime::perhaps && probe.is_due()) {
       constexpr std::size_t last = EarlyLooks::parts.size() - 1;
-      probe.found =
-          value(looks_[0][last], EarlyLooks::parts[last], Along::time, d, slot) != g0(slot);
+      const double now = g0(slot);
+      double later = now;
+      detail::is_defined(
+          [&] { later = value(looks_[0][last], EarlyLooks::parts[last], Along::time, d, slot); });
+      probe.found = later != now;
     }
     return probe.follow(group.follows_time);
   }

@@ -64,9 +64,10 @@ class StageTangents {
   bool continues_ = false;  // the last step ended where the next begins
   bool has_step_ = false;   // the last step was taken here
   bool dense_ready_ = false;
-  double from_ = 0.0, to_ = 0.0, t0_ = 0.0, t1_ = 0.0, h_ = 0.0;  // [s] of the last step
-  Integration* integration_ = nullptr;                            // that has taken it
-  Flat s0_, s1_, inside_;  // S at both ends, and at a time inside
+  double from_ = 0.0, to_ = 0.0, t1_ = 0.0, h_ = 0.0;  // [s] of the last step
+  Integration* integration_ = nullptr;                 // that has taken it
+  Flat s0_, s1_, inside_;                              // S at both ends, and at a time inside
+  Flat allowed_;  // the absolute tolerance of each entry in that step
 };
 
 }  // namespace saltus

@@ -52,7 +52,7 @@ class TangentFlow {
     Variable kind;
     Index index;
   };
-  /// The exact derivatives of the rates, which are expressions; those that are zero are left out.
+  /// The exact derivatives of the rates. A derivative that is zero everywhere has no entry.
   const std::vector<Entry>& rate_entries() const { return rates_->entries; }
   /// Their values at (t, x), which last until the next call.
   const double* rates_at(double t, const double* x) {

@@ -131,7 +131,7 @@ class GuardSet {
     for (const LocatedGuards* located : {&active_.stopping, &active_.monitors})
       for (const LookedRead& read : located->reads) g[read.slot] = values[read.slot];
   }
-  /// Notes the value of a guard only, as its last and as the one that edge_detection compares with.
+  /// Notes the last value of a guard, with which edge_detection compares the next one.
   void stay(std::size_t k, double value) {
     ++version_;
     g[k] = guards_[k].base = value;

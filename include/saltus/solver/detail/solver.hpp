@@ -99,7 +99,7 @@ class Solver {
   /// Method in use now, for the statistics.
   virtual std::string method() const = 0;
   /// The stages of the last step, if an explicit method has taken it and still has them. A call of
-  /// `interpolate` inside the step makes those that only the dense output reads.
+  /// `interpolate` inside the step adds the stages that only the dense output reads.
   virtual StepStages stages() { return {}; }
 };
 

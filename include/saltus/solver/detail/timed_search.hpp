@@ -3,34 +3,13 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 
-#include "saltus/base/detail/forced_unwind.hpp"
-#include "saltus/base/error.hpp"
+#include "saltus/base/detail/is_defined.hpp"
 #include "saltus/solver/detail/piece_search.hpp"
 #include "saltus/solver/detail/search_thresholds.hpp"
+#include "saltus/solver/detail/time_probe.hpp"
 
 namespace saltus {
-
-/// What the looks of a run say of functions that may follow the time: called functions that do not
-/// declare what they read.
-struct TimeProbe {
-  std::int64_t steps = 0;  ///< that were looked into
-  std::int64_t due = 1;    ///< the next of them in which such functions are asked
-  bool found = false;
-
-  /// A step is looked into: whether such functions are asked in it. They may be constant at times, so
-  /// they are asked in the first step, the fourth, the sixteenth, and so on.
-  bool is_due() {
-    if (found || ++steps != due) return false;
-    due *= 4;
-    return true;
-  }
-  /// Whether some guard follows the time, as far as is known.
-  [[gnu::always_inline]] bool follow(FollowsTime known) const {
-    return known != FollowsTime::no && (found || known == FollowsTime::yes);
-  }
-};
 
 /// Finds out which guards follow the time: from the plan, or by a look where the plan does not know it.
 class TimedSearch : protected PieceSearch {
@@ -45,21 +24,14 @@ class TimedSearch : protected PieceSearch {
   bool asks() const { return asks_; }
 
   /// Asks whether some guard varies from `u` on while the state is kept; x_ has the state at u, and
-  /// `values` the guards. A function that throws is taken for one that does: it may refuse
-  /// a state that does not belong to the time.
+  /// `values` the guards. A function that throws counts as following the time, because it may refuse a
+  /// state that does not belong to the time.
   template <class Interpolate>
   void ask(double u, const List<double>& values, double even, const Interpolate& interpolate) {
     asks_ = false;
-    try {
-      look(u + thresholds::times_apart * even, x_.data(), interpolate, middle_);
-    } catch (const Interruption&) {
-      throw;
-    } catch (...) {
-      detail::pass_end_of_thread();
-      probe_.found = true;
-      return;
-    }
-    probe_.found = std::ranges::any_of(located_->slots, [&](std::size_t k) {
+    const bool defined = detail::is_defined(
+        [&] { look(u + thresholds::times_apart * even, x_.data(), interpolate, middle_); });
+    probe_.found = !defined || std::ranges::any_of(located_->slots, [&](std::size_t k) {
       return values[k] != middle_[k] && !(*guards_)[k].jumps;
     });
   }

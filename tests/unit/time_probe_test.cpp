@@ -1,12 +1,12 @@
 // TimeProbe: when called functions are asked whether they follow the time, and what is known then.
-#include "saltus/solver/detail/timed_search.hpp"
+#include "saltus/solver/detail/time_probe.hpp"
 
 #include "support/catch.hpp"
 
 using namespace saltus;
 
 TEST_CASE("called functions are asked again in ever more steps, until one follows the time",
-          "[timed_search]") {
+          "[time_probe]") {
   TimeProbe probe;
   std::vector<int> asked;
   for (int step = 1; step <= 40; ++step)
@@ -17,7 +17,7 @@ TEST_CASE("called functions are asked again in ever more steps, until one follow
 }
 
 TEST_CASE("guards follow the time if the plan knows it, or if a look has shown it",
-          "[timed_search]") {
+          "[time_probe]") {
   struct Row {
     FollowsTime known;
     bool found, follow;
