@@ -51,7 +51,7 @@ class Root : private FoundRoot {
     look(1.0, nullptr, at, high_);
     third_at_ = never;
     REQUIRE(note_crossed(high_));
-    REQUIRE(take(narrow(0.0, 1.0, at)));
+    REQUIRE(take(narrow(0.0, 1.0, at).high));
   }
 };
 

@@ -51,7 +51,7 @@ class Crossings : private Narrower {
     third_at_ = std::numeric_limits<double>::infinity();
     REQUIRE(note_crossed(high_));
     const auto before = machine_->guard_calls;
-    const double u = narrow(low, high, at);
+    const double u = narrow(low, high, at).high;
     looks = machine_->guard_calls - before;
     crossed = crossed_;
     return u;

@@ -27,6 +27,10 @@ namespace saltus {
 /// these few.
 class Narrower {
  protected:
+  struct Bracket {
+    double low, high;
+  };
+
   Narrower(Machine& machine, GuardSet& guards, const LocatedGuards& located)
       : machine_(&machine), guards_(&guards), located_(&located), x_(machine.plan().nx) {
     const Index slots = machine.plan().look_slots;
@@ -79,17 +83,18 @@ class Narrower {
   }
 
   /// Narrows [low, high]: no guard has fired at low, and by `high_` a guard has fired at high. On
-  /// return `high_` and crossed_ belong to the offset returned. `third_` has the guards at
-  /// third_at_, another look nearby; third_at_ is infinite if there is none.
+  /// return `high_` and crossed_ belong to the high end of the bracket, the root; no guard has fired at
+  /// its low end. `third_` has the guards at third_at_, another look nearby; third_at_ is infinite if
+  /// there is none.
   template <class Interpolate>
-  double narrow(double low, double high, const Interpolate& interpolate) {
+  Bracket narrow(double low, double high, const Interpolate& interpolate) {
     copy_values(guards_->g, low_), copy_values(high_, begun_);
     choose_few();
     Bracket last = narrow_few({low, high}, interpolate);
     while (!few_.empty() && others_crossed(last, low, interpolate))
       last = narrow_few({low, last.low}, interpolate);
     note_ends(last.high - last.low, high - low);
-    return last.high;
+    return last;
   }
 
   Machine* machine_;
@@ -107,10 +112,6 @@ class Narrower {
   List<double> x_;  // the state at the last look inside a step
 
  private:
-  struct Bracket {
-    double low, high;
-  };
-
   /// If few of many guards have crossed by the high end, only these are narrowed.
   void choose_few() {
     few_.clear(), few_groups_.clear();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "saltus/base/list.hpp"
 #include "saltus/solver/detail/found_root.hpp"
@@ -42,7 +43,8 @@ class PieceSearch : protected FoundRoot {
     guards_->keep();
     for (bool looked = true; from < to; looked = false) {
       if (!looked) look(to, end, interpolate, high_);
-      const double high = note_crossed(high_) ? to : next_dip(from, to, interpolate);
+      const double high = note_crossed(high_) ? first_crossed(from, to, interpolate)
+                                              : next_dip(from, to, interpolate);
       if (high == never) continue;
       if (high == to && crossed_.size() >= thresholds::crowd_size) {
         const Crowd crowd = locate_crowd(from, to, interpolate);
@@ -73,9 +75,10 @@ class PieceSearch : protected FoundRoot {
     const double before = from;
     third_at_ = high < end_at_ ? end_at_ : never;
     if (third_at_ != never) copy_values(end_, third_);
-    from = narrow(from, high, interpolate);
+    const Bracket root = narrow(from, high, interpolate);
+    from = root.high;
     if (between && located_->slots.size() > 1 && scans()) {
-      if (find_before(before, from, interpolate)) return true;
+      if (find_before(before, root, interpolate)) return true;
     } else if (from - before > thresholds::short_share * (to - before)) {
       set_earlier(before, guards_->g);
     }
@@ -98,19 +101,38 @@ class PieceSearch : protected FoundRoot {
   /// `find` in the part before a root. The root shortens the step, so the looks need new points.
   /// Afterwards `high_` and crossed_ belong to the root again.
   template <class Interpolate>
-  bool find_before(double from, double root, const Interpolate& interpolate) {
+  bool find_before(double from, const Bracket& root, const Interpolate& interpolate) {
     copy_values(high_, at_root_);
-    const double piece = (root - from) / (scan_points_ + 1);
+    const double piece = (root.high - from) / (scan_points_ + 1);
+    const std::size_t noted = guards_->monitors.size();
     for (int i = 1; i <= scan_points_; ++i) {
-      const double next = std::min(root, from + piece);
+      const double next = std::min(root.high, from + piece);
       if (!(from < next)) break;
-      look(next, nullptr, interpolate, high_);
-      if (find_in_piece(from, next, nullptr, interpolate, false)) return true;
-      from = next;
+      if (find_to(next, from, interpolate)) return true;
     }
+    copy_values(at_root_, high_);
+    if (from < root.low && may_cross_before(from, root.high, noted, interpolate) &&
+        find_to(root.low, from, interpolate))
+      return true;
     copy_values(at_root_, high_);
     if (!note_crossed(high_)) crossed_.clear();  // a monitor was found one rounding before it
     return false;
+  }
+
+  /// Searches (from, next], and moves `from` to `next`.
+  template <class Interpolate>
+  bool find_to(double next, double& from, const Interpolate& interpolate) {
+    look(next, nullptr, interpolate, high_);
+    return find_in_piece(std::exchange(from, next), next, nullptr, interpolate, false);
+  }
+
+  /// Whether something may happen in the last piece before a root, to which `high_` belongs. The root was
+  /// narrowed for the sides where its part begins: a monitor that has crossed since, when there were `noted`
+  /// crossings, may cross back; and a guard may dip.
+  template <class Interpolate>
+  bool may_cross_before(double from, double root, std::size_t noted,
+                        const Interpolate& interpolate) {
+    return guards_->monitors.size() > noted || find_dip(from, root, never, interpolate) != never;
   }
 
   List<double> at_root_;
