@@ -105,8 +105,13 @@ def place_on_site(path):
 
 
 def gallery(markdown):
-    """The tables of scenes as cards with their pictures."""
-    card = r"- [![](\2.svg)<b>\1</b><br>\3](\2.md)\n"
+    """The tables of scenes as cards with their films, or pictures where nothing is drawn."""
+
+    def card(row):
+        name, path, words = row.groups()
+        moving = (ROOT / "docs" / "models" / f"{path}.gif").exists()
+        return f"- [![]({path}.{'gif' if moving else 'svg'})<b>{name}</b><br>{words}]({path}.md)\n"
+
     rows = re.compile(r"^\| (?:scene|model) \| \|\n\| --- \| --- \|\n((?:\|.*\n?)+)", re.M)
     opened, closed = '<div class="gallery" markdown>\n\n', "\n</div>\n"
     return rows.sub(lambda table: opened + SCENE.sub(card, table[1]) + closed, markdown)
