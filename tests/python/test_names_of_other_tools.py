@@ -21,6 +21,7 @@ from saltus.library import (
     Integrator,
     LookupTable2d,
     LTISystem,
+    LTISystemDiscrete,
     MatrixConcatenation,
     MatrixMultiplication,
     MinMax,
@@ -127,6 +128,10 @@ ALIKE = {
         LTISystem(A, B, B, initialize_states=[2.0]), LTISystem(A, B, B, initial_state=[2.0]),
         (1.0,),
     ),
+    "LTISystemDiscrete by position": (
+        LTISystemDiscrete(A, B, B, [[0.0]], 0.1, initialize_states=[2.0]),
+        LTISystemDiscrete(0.1, A, B, B, initial_state=[2.0]), (1.0,),
+    ),
     "Product": (
         Product(2, operators="*/", denominator_limit=None, divide_by_zero_behavior=None),
         Product("*/"), (3.0, 2.0),
@@ -211,3 +216,16 @@ def test_what_would_mean_something_else_is_refused_with_what_to_do(case):
 def test_derivatives_are_named_where_gradients_are_asked_for():
     with pytest.raises(saltus.ModelError, match="sensitivity="):
         saltus.simulate(Integrator(), (0.0, 1.0), enable_autodiff=True)
+
+
+@pytest.mark.parametrize(("name", "here"), saltus.errors.NAMES_OF_OTHERS.items())
+def test_an_exception_of_pycollimator_is_answered(name, here):
+    assert not here or issubclass(getattr(saltus.errors, here), saltus.Error)
+    with pytest.raises(ImportError, match=f"it is {here} here" if here else "leave it out"):
+        getattr(saltus.errors, name)
+    with pytest.raises(ImportError, match=f"has no '{name}'; "):
+        exec(f"from saltus.errors import {name}")
+
+
+def test_an_unknown_exception_is_an_attribute_error():
+    assert not hasattr(saltus.errors, "NoSuchError")
