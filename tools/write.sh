@@ -4,7 +4,9 @@ docs() {
   module all && venv docs -r docs/site/requirements.txt || return 1
   step pictures "drawing docs/pictures" "$python" docs/pictures/make.py || return 1
   step blocks "drawing docs/pictures/blocks.svg" "$python" docs/pictures/blocks.py || return 1
+  step each "drawing docs/pictures/blocks" "$python" docs/pictures/each_block.py || return 1
   step models "drawing docs/models" "$python" docs/models/make.py || return 1
+  step films "filming docs/models" "$python" docs/models/films.py || return 1
   step drawings "drawing what the code in docs/ draws" "$python" docs/site/pictures.py || return 1
   run_tests snippets || return 1
   step site "building build/site" env NO_MKDOCS_2_WARNING=1 "$python" -m mkdocs build --strict

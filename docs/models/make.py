@@ -31,6 +31,8 @@ LOG_FROM = {
 }  # [s] short spans seen better so
 # of states (u_1, v_1, u_2, v_2, ...) the field u
 EVERY = {"brusselator": 2, "brusselator-2d": 2, "cusp": 3, "medakzo": 2}
+# [s] of the run that shows what happens, where all of it would be a hatching
+WINDOW = {"thermostat": 2200.0, "two-walls": 10.0}
 HALF = {"beam", "plate"}  # of states that end with their rates the first half
 LINEAR = {"emep"}  # spans longer than LONG that are seen better over time as it is
 
@@ -42,6 +44,7 @@ def logarithmic(scene):
 def run(scene, rows=600):
     """A run with as many rows as a picture can show, evenly over its time axis."""
     begin, end = scene.t_span
+    end = min(end, begin + WINDOW.get(scene.name, np.inf))
     steps = scene.simulate(save_at=[], save_steps=True, throw=False)
     first = LOG_FROM.get(scene.name, steps.time[steps.time > begin][0])
     even = np.geomspace(first, end, rows) if logarithmic(scene) else np.linspace(begin, end, rows)
@@ -74,6 +77,9 @@ def time_axis(axis, scene):
     if logarithmic(scene):
         axis.set_xscale("log")
         axis.set_xlim(LOG_FROM.get(scene.name))
+    if scene.name in WINDOW:
+        begin = scene.t_span[0]
+        axis.set_xlim(begin, begin + WINDOW[scene.name])
     axis.set_xlabel("time t [s]")
 
 
@@ -93,7 +99,7 @@ def over_time(scene, results):
     if logarithmic(scene):  # no logarithm of the begin
         times, values = times[~(times <= 0)], values[~(times <= 0)]
     for k, axis in enumerate(axes[:, 0]):
-        mark_events(axis, results)
+        mark_events(axis, results, end=scene.t_span[0] + WINDOW.get(scene.name, np.inf))
         axis.plot(times, values[:, k] if split else values)
         axis.set_ylabel(names[k] if split else "")
     if not split and len(names) <= 12:
@@ -146,7 +152,10 @@ def picture(name):
     else:
         figure = over_time(scene, results)
     width = 15 * figure.get_figwidth()  # in letters
-    figure.axes[0].set_title(textwrap.fill(f"{name}: {scene.title}", int(width)))
+    title = f"{name}: {scene.title}"
+    if name in WINDOW:
+        title += f"; the first {WINDOW[name]:g} s"
+    figure.axes[0].set_title(textwrap.fill(title, int(width)))
     return figure
 
 

@@ -35,6 +35,7 @@ CODE = re.compile(r"(^```.*?^```[ \t]*$)", re.M | re.S)
 SCENE = re.compile(r"^\| \[([\w -]+)\]\(([\w/-]+)\.md\) \| (.*) \|\n", re.M)
 TABLE = re.compile(r"<table(>.*?</table>)", re.S)
 CELL = re.compile(r"<td.*?</td>", re.S)
+BLOCK = re.compile(r'<h2 id="saltus\.library\.(\w+)".*?</p>', re.S)  # to its first sentence
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s#]*)(#[^)\s]*)?\)")
 
 
@@ -71,7 +72,18 @@ def on_page_markdown(markdown, page, config, files):
 
 def on_page_content(html, page, config, files):
     html = TABLE.sub(marked, html)
+    if page.file.src_uri == "api/blocks.md":
+        html = BLOCK.sub(pictured, html)
     return mathematics.put(html, FORMULAS.pop(page.file.src_uri, []))
+
+
+def pictured(block):
+    """The begin of a block's part of the reference with the picture of its response."""
+    name = block[1]
+    if not (ROOT / "docs" / "pictures" / "blocks" / f"{name}.svg").exists():
+        return block[0]
+    words = f"A run of {name}: inputs grey, outputs black"
+    return f'{block[0]}\n<img class="block" alt="{words}" src="../pictures/blocks/{name}.svg">'
 
 
 def marked(table):
@@ -105,8 +117,13 @@ def place_on_site(path):
 
 
 def gallery(markdown):
-    """The tables of scenes as cards with their pictures."""
-    card = r"- [![](\2.svg)<b>\1</b><br>\3](\2.md)\n"
+    """The tables of scenes as cards with their films, or pictures where nothing is drawn."""
+
+    def card(row):
+        name, path, words = row.groups()
+        moving = (ROOT / "docs" / "models" / f"{path}.gif").exists()
+        return f"- [![]({path}.{'gif' if moving else 'svg'})<b>{name}</b><br>{words}]({path}.md)\n"
+
     rows = re.compile(r"^\| (?:scene|model) \| \|\n\| --- \| --- \|\n((?:\|.*\n?)+)", re.M)
     opened, closed = '<div class="gallery" markdown>\n\n', "\n</div>\n"
     return rows.sub(lambda table: opened + SCENE.sub(card, table[1]) + closed, markdown)

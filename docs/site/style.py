@@ -1,4 +1,4 @@
-"""The style of the pictures of models: gaps at jumps, ticks at events, shaded holds."""
+"""The style of the pictures of models, that of `results.plot()`: gaps at jumps, ticks, shaded holds."""
 
 import io
 import re
@@ -8,9 +8,9 @@ import matplotlib
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
 import numpy as np
+from saltus.results.charts.chart import COLOURS
 
-SHADE = "0.9"
-LINES = ("black", "tab:blue", "tab:red", "tab:green", "tab:orange", "tab:purple", "tab:brown")
+HOLD = {"color": "0.5", "alpha": 0.13, "lw": 0}  # as plot() draws it
 TAG = re.compile(r"<[^>]*>")
 DIGITS = re.compile(r"(\d\.\d\d)\d+")
 plt.rcParams.update(
@@ -20,7 +20,7 @@ plt.rcParams.update(
         "axes.spines.right": False,
         "axes.titlesize": 8,
         "axes.titlelocation": "left",
-        "axes.prop_cycle": plt.cycler(color=LINES),
+        "axes.prop_cycle": plt.cycler(color=COLOURS),
         "lines.linewidth": 1.0,
         "legend.frameon": False,
         "svg.fonttype": "none",  # words stay words
@@ -46,15 +46,13 @@ def mark_events(axis, results, begin=-np.inf, end=np.inf):
     )
     times = times[(begin <= times) & (times <= end)]
     if len(times):
-        axis.plot(
-            times, 0 * times, "|", transform=axis.get_xaxis_transform(),
-            color="tab:red", ms=5, mew=0.7, clip_on=False,
-        )  # fmt: skip
+        across = axis.get_xaxis_transform()  # x in seconds, y in parts of the axes
+        axis.vlines(times, 0.0, 0.05, transform=across, color="0.35", lw=0.7, zorder=1)
     entered = [e.time for e in events if e.kind == "zeno_enter"]
     left = [e.time for e in events if e.kind == "zeno_release"]
     for enter in entered[:50]:
         leave = min([t for t in left if t > enter], default=results.time[-1])
-        axis.axvspan(enter, leave, color=SHADE, lw=0)
+        axis.axvspan(enter, leave, **HOLD)
 
 
 def save(figure, path):

@@ -44,7 +44,7 @@ class Car(saltus.LeafSystem):
 
 def run() -> saltus.Results:
     builder = saltus.DiagramBuilder()
-    builder.add(Pulse(0.08, 10.0, 0.02, 0.5, name="road"), Car())
+    builder.add(Pulse(0.08, period=10.0, pulse_width=0.02, phase_delay=0.5, name="road"), Car())
     builder.connect("road.out", "car.road")
     builder.export_output("car.body", "body")
     builder.export_output("car.wheel", "wheel")

@@ -43,7 +43,9 @@ class Heater(saltus.LeafSystem):
 
 def run() -> saltus.Results:
     builder = saltus.DiagramBuilder()
-    builder.add(Pulse(60.0, 12.0, 0.0625, 6.5, name="draw"), Heater())
+    builder.add(
+        Pulse(60.0, period=12.0, pulse_width=0.0625, phase_delay=6.5, name="draw"), Heater()
+    )
     builder.connect("draw.out", "heater.draw")
     for name in ("water", "on", "energy"):
         builder.export_output(f"heater.{name}", name)

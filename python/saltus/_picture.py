@@ -30,11 +30,20 @@ def to_mermaid(system: System, what: str, signals: Recorded, max_depth: int | No
     if what == "modes":
         if signals is not None or max_depth is not None:
             raise ModelError('to_mermaid("modes") takes neither recorded_signals nor max_depth')
-        return _core.modes_to_mermaid(system)
+        return _with_mode_names(_core.modes_to_mermaid(system), system)
     if what != "blocks":
         known = _core.known_names(what, ["blocks", "modes"])
         raise ModelError(f"to_mermaid: no picture of '{what}'{known}")
     return _core.to_mermaid(system, _ports(system, signals), _depth(max_depth))
+
+
+def _with_mode_names(text: str, system: System) -> str:
+    """The states of a picture under the names that the block gives its modes."""
+    declared = getattr(system, "_declared", None)
+    for mode, name in enumerate(declared.modes if declared else ()):
+        plain = " ".join(name.replace("#", "#35;").replace('"', "#quot;").split())
+        text = text.replace(f'state "mode {mode}" as', f'state "{plain}" as')
+    return text
 
 
 def in_svg(system: System) -> str | None:

@@ -44,10 +44,10 @@ OPTIONS = {
     ),
     "math_backend": "there is one backend, compiled; leave it out",
     "enable_tracing": "see system.explain(); python='called' switches it off",
-    "enable_autodiff": "Saltus computes no gradients; leave it out",
-    "max_checkpoints": "Saltus computes no gradients; leave it out",
+    "enable_autodiff": "derivatives of a run are sensitivity=['gain.gain', ...]",
+    "max_checkpoints": "leave it out: sensitivity=[...] goes forward and needs none",
     "buffer_length": "the recorder grows as needed; leave it out",
-    "save_time_series": "give recorded_signals, or leave them out to record nothing",
+    "save_time_series": "give recorded_signals, or recorded_signals=[] records nothing",
     "return_context": "results.context is always there; leave it out",
     "zc_bisection_loop_count": "events are located to the last digits of a double; leave it out",
     "int_time_scale": "time is a double and ticks are counted by integers; leave it out",
@@ -65,7 +65,7 @@ DECLARATIONS = {
     "as_array": "every value is an array; leave it out",
     "mass_matrix": "divide by it in the ode",
     "prerequisites_of_calc": "say which inputs are read with requires_inputs",
-    "grad_guard": "Saltus computes no gradients; leave it out",
+    "grad_guard": "it is guard_derivatives, and is needed for a guard that is called only",
 }
 CALLED = {
     **dict.fromkeys(("initial_condition", "ic", "x0", "InitialCondition"), "initial_state"),
@@ -124,7 +124,8 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
 
     declares = method.__name__.startswith("declare_")
     hints = _hints(method.__name__, known)
-    positional = known[: code.co_argcount - 1] if method.__name__ == "__init__" else ()
+    constructs = method.__name__ == "__init__"
+    positional = known[: code.co_argcount - 1] if constructs else ()
 
     @functools.wraps(method)
     def checked(*arguments: P.args, **options: P.kwargs) -> R:
@@ -132,6 +133,13 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
             raise ModelError(f"{where}: call super().__init__(name=...) first, then declare")
         if declares:
             _let_go(arguments[0])
+        if constructs:
+            if not code.co_flags & inspect.CO_VARARGS:
+                _require_few(where, positional, arguments, options)
+            if not options.keys() <= set(known):
+                from saltus.library.ported import as_here
+
+                options = as_here(where, options, known)  # type: ignore[assignment]
         refuse(where, options, known, hints)
         try:
             if positional and _has_expressions(arguments, options):
@@ -143,6 +151,27 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
         raise ModelError(f"{where}: {_wrong_kind(method, arguments, options)}")
 
     return checked
+
+
+def _require_few(
+    where: str, positional: tuple[str, ...], arguments: Any, options: Mapping[str, Any]
+) -> None:
+    """ModelError for more arguments without a name than a block takes, and for a truth in the place
+    of a limit, where other tools have another argument; for one limit that may be either.
+    """
+    given = arguments[1:]
+    if len(given) > len(positional):
+        raise ModelError(
+            f"{where}: expected at most {len(positional)} arguments without a name "
+            f"({', '.join(positional) or 'none'}), found {len(given)}; give the others by name"
+        )
+    for name, value in zip(positional, given, strict=False):
+        if isinstance(value, bool) and name.endswith("_limit"):
+            raise ModelError(f"{where}: {name}: expected numbers, found {value}; give it by name")
+    if len(given) == 1 and positional[0] == "lower_limit" and "upper_limit" not in options:
+        raise ModelError(  # other tools begin with the upper one
+            f"{where}: say which limit it is: lower_limit={given[0]!r} or upper_limit={given[0]!r}"
+        )
 
 
 def _has_expressions(arguments: Any, options: Any) -> bool:

@@ -6,11 +6,20 @@ from collections.abc import Mapping
 from typing import Any
 
 from saltus import _core
+from saltus._quantities import Quantity, named_states, quantity_of, says
 from saltus.errors import ModelError
 from saltus.ports import OutputPort
 from saltus.system import System
 
-__all__ = ["block_of", "blocks_in", "named", "port_of", "signals_in", "signals_of"]
+__all__ = [
+    "block_of",
+    "blocks_in",
+    "named",
+    "port_of",
+    "quantities_of",
+    "signals_in",
+    "signals_of",
+]
 
 
 def is_diagram(system: System) -> bool:
@@ -82,8 +91,19 @@ def signals_in(system: System, signals: Any) -> dict[str, OutputPort]:
 
 
 def signals_of(system: System, signals: Any) -> dict[str, OutputPort]:
-    """The signals of a run; by default the outputs that a diagram exports."""
+    """The signals of a run; by default the outputs that a diagram exports, or the states of a block
+    that have names.
+    """
     if signals is not None:
         return signals_in(system, signals)
-    exported = system.output_ports if is_diagram(system) else ()
-    return {port.name: port for port in exported}
+    if is_diagram(system):
+        return {port.name: port for port in system.output_ports}
+    return {system.output_names[i]: OutputPort(system, i) for i in named_states(system)}
+
+
+def quantities_of(system: System, signals: Any) -> dict[str, Quantity]:
+    """What the signals of a run show, of those whose blocks say it."""
+    if not says(system):
+        return {}
+    found = {name: quantity_of(port) for name, port in signals_of(system, signals).items()}
+    return {name: one for name, one in found.items() if one}

@@ -194,3 +194,29 @@ class SimulationError(Error, RuntimeError):
         # Without this a copy, for example one from another process, would lose the fields. The
         # results refer to this error as their cause, so they come after it, as its state.
         return type(self), (str(self), self.time, self.block), dict(self.__dict__)
+
+
+NAMES_OF_OTHERS = {
+    "BlockInitializationError": "ModelError",
+    "BlockRuntimeError": "SimulationError",
+    "CallbackIsNotDifferentiableError": "ModelError",
+    "CollimatorError": "Error",
+    "DtypeMismatchError": "",
+    "LegacyBlockConfigurationError": "",
+    "ModelInitializationError": "ModelError",
+    "ParameterError": "ModelError",
+    "PythonScriptError": "SimulationError",
+    "StaticParameterError": "ModelError",
+}
+"""exceptions of pycollimator -> what is raised here, if anything can be"""
+
+
+if not TYPE_CHECKING:  # a type checker knows the names that are there
+
+    def __getattr__(name: str) -> None:
+        if name not in NAMES_OF_OTHERS:
+            raise AttributeError(f"module 'saltus.errors' has no attribute '{name}'")
+        here = NAMES_OF_OTHERS[name]
+        says = f"it is {here} here" if here else "nothing raises it here: leave it out"
+        # not an AttributeError, whose text `from saltus.errors import ...` would replace
+        raise ImportError(f"saltus.errors has no '{name}'; {says}")

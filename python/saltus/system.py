@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from saltus import _core, callbacks
 from saltus.callbacks import Explanation
@@ -38,6 +39,21 @@ def _event_of(where: str, name: object, entry: object) -> tuple[str, int | None]
     if isinstance(place, str):
         raise ModelError(f"{where}: expected the number of an entry, found {entry!r}")
     return name, place
+
+
+def _text(name: object) -> str:
+    if not isinstance(name, str):
+        raise ModelError(f"create_context: values: expected names, found {name!r}")
+    return name
+
+
+def _numbers(name: str, value: ArrayLike) -> np.ndarray:
+    try:
+        return np.ravel(np.asarray(value, dtype=float))
+    except (TypeError, ValueError):
+        raise ModelError(
+            f"create_context: values: '{name}': expected numbers, found {value!r}"
+        ) from None
 
 
 class Count:
@@ -241,22 +257,46 @@ class System:
         """
         return callbacks.explain(self)
 
-    def create_context(self, time: float = 0.0) -> _core.Context:
+    def create_context(
+        self, time: float = 0.0, values: Mapping[str, ArrayLike] | None = None
+    ) -> _core.Context:
         """The values every block starts with. A change of a context changes no system.
 
         Parameters
         ----------
         time
             [s]
+        values
+            Other start values, parameters and modes, by the names that a sweep has for them:
+            ``{"ball.height": 5.0, "ball.e": 0.9}``, ``"x[0]"`` for an entry of a state without a
+            name, ``"x"`` for all of them, ``"room.mode"``.
+
+        Raises
+        ------
+        ModelError
+            For a name that is not there, with the nearest one; for values that are no finite
+            numbers, or of another number than the state or the parameter has.
 
         Examples
         --------
         >>> from saltus.library import Integrator
         >>> Integrator([1.0, 2.0]).create_context()
         Context(time=0, continuous_state=[1, 2], mode=0)
+        >>> Integrator([1.0, 2.0]).create_context(values={"x[1]": 5.0})
+        Context(time=0, continuous_state=[1, 5], mode=0)
         """
         remember(self)
-        return _core.System.create_context(self, time)
+        context = _core.System.create_context(self, time)
+        if values is None:
+            return context
+        if not isinstance(values, Mapping):
+            raise ModelError(
+                "create_context: values: expected a dict of names with values, "
+                f'{{"ball.height": 5.0}}, found {values!r}'
+            )
+        for name, value in values.items():
+            context = _core.with_entry(context, _text(name), _numbers(name, value))
+        return context
 
     def eval_time_derivatives(self, context: _core.Context) -> np.ndarray:
         """dx/dt of the continuous states of this system at a context, without a run.

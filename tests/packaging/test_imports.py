@@ -58,6 +58,7 @@ LATE = {
     ("saltus.results.pictures", "saltus.results.charts"): "loads matplotlib",
     ("saltus.results.pictures", "saltus.viewing"): "loads pages",
     ("saltus.viewing.view", "saltus.drawings.of_scene"): "loads matplotlib",
+    ("saltus._porting", "saltus.library.ported"): "wanted for arguments of other tools only",
     ("saltus.system", "saltus._evaluate"): "reads contexts, which are those of systems",
     ("saltus.system", "saltus._picture"): "loads subprocess, for Graphviz",
     ("saltus.system", "saltus._tree"): "reads the blocks of a diagram, which is a system",

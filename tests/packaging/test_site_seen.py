@@ -32,6 +32,9 @@ SEEN = """(async () => {
     squeezed: pictures.filter(i => main.contains(i) && box(i).width && Math.abs(
       box(i).width / box(i).height / (i.naturalWidth / i.naturalHeight) - 1) > 0.05
       && getComputedStyle(i).objectFit === 'fill').map(i => i.src),
+    over: [...main.querySelectorAll('td')]
+      .filter(c => box(c).width && c.scrollWidth > c.clientWidth + 1)
+      .map(c => c.textContent.trim().slice(0, 60)),
     formulas: [...main.querySelectorAll('math')].filter(m => box(m).height < 5).length,
   };
 })()"""
@@ -55,7 +58,7 @@ def faults(seen, messages):
     """What is wrong with a page, in words."""
     if seen["scroll"] > seen["room"]:
         yield f"it is {seen['scroll']} px wide in {seen['room']}"
-    for name in ("missing", "beyond", "squeezed"):
+    for name in ("missing", "beyond", "squeezed", "over"):
         if seen[name]:
             yield f"{name}: {seen[name][:3]}"
     if seen["formulas"]:
@@ -79,6 +82,7 @@ def test_every_page_is_whole(site, browser, width):
 
 
 BAD = """<div class="md-content"><p style="width:3000px">wide</p><img src="nowhere.png">
+<table><tr><td style="width:20px;max-width:20px"><code>a_long_name_of_one_word</code></td></tr></table>
 <script>console.error("wrong")</script></div>"""
 
 
@@ -88,6 +92,7 @@ def test_a_bad_page_is_noticed(browser, tmp_path):
     browser.open((tmp_path / "bad.html").as_uri())
     found = " ".join(faults(browser.value(SEEN), browser.messages))
     assert "px wide" in found and "missing" in found and "beyond" in found and "wrong" in found
+    assert "over: ['a_long_name_of_one_word']" in found
 
 
 def test_a_word_is_found(site, browser):

@@ -101,7 +101,7 @@ def test_a_run_that_goes_on_at_a_jump_of_the_input(method, cut):
     5.3 s that the integrator sees, so its area is 4 * 0.52.
     """
     builder = saltus.DiagramBuilder()
-    pulse = builder.add(Pulse(1.0, 1.3, 0.4, 0.2, name="pulse"))
+    pulse = builder.add(Pulse(1.0, period=1.3, pulse_width=0.4, phase_delay=0.2, name="pulse"))
     delay = builder.add(TransportDelay(0.7, name="delay"))
     area = builder.add(Integrator(0.0, name="area"))
     builder.connect(pulse.output(), delay.input())

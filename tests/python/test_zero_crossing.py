@@ -45,7 +45,10 @@ def go(block, end=1.0, **options):
         ({"at_start": None}, "at_start: expected a name, found None"),
         ({"size": "two"}, "size: expected a number of guards, 1 or more, found 'two'"),
         ({"max_count": 1.5}, "max_count: expected a count, 1 or more, found 1.5"),
-        ({"start_mode": "fast"}, "start_mode: expected a mode, an integer, found 'fast'"),
+        (
+            {"start_mode": "fast"},
+            "unknown mode 'fast'; name the modes first: declare_default_mode(0, names=['off', 'on'])",
+        ),
         ({"zeno_tolerance": "small"}, "zeno_tolerance: expected a time [s], found 'small'"),
         (
             {"holds": [0, 1], "size": 2},

@@ -73,6 +73,7 @@ def page(name):
         "From the shell:",
         f"```sh beside=examples/scenes\nsaltus run {name}.toml --plot {name}.svg\n```",
         f"![{text['heading']}: {alternative(text)}]({name}.svg)",
+        f"![{text['heading']}, as a film]({name}.gif)" if (HERE / f"{name}.gif").exists() else "",
         f"$$\n\\begin{{aligned}}\n{equations}\n\\end{{aligned}}\n$$",
         "## What to see",
         text["see"].strip(),

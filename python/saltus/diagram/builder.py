@@ -220,9 +220,9 @@ class DiagramBuilder(WiresEvents, ExportsPorts):
         saltus.errors.InputNotConnectedError: input 'in' of block 'gain' is not connected; ...
         """
         if not parameters:
-            return Diagram(self._core, name, self._children)
+            return Diagram(self._core, name, self._children, exported=self._exported)
         from saltus.parameters.shared import Shared
 
         shared = Shared(parameters, self._children)
         shared.add_to(self._core)
-        return Diagram(self._core, name, self._children, shared.parameters)
+        return Diagram(self._core, name, self._children, shared.parameters, self._exported)

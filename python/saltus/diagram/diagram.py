@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from saltus import _core
+from saltus._quantities import says
 from saltus._signals import block_of
 from saltus.errors import ModelError
 from saltus.parameter import Parameter
-from saltus.system import System, remember
+from saltus.system import OutputPort, System, remember
 
 __all__ = ["Diagram"]
 
@@ -43,10 +44,13 @@ class Diagram(System, _core.Diagram):
         name: str,
         children: dict[str, System],
         parameters: Mapping[str, Parameter] = {},
+        exported: Sequence[OutputPort] = (),
     ):
         super().__init__(builder, name)
         self._children = children
         self._expressions = dict(parameters)
+        self._exported = tuple(exported)
+        self._says = any(map(says, children.values()))
         remember(self)
 
     def __getitem__(self, name: str) -> System:

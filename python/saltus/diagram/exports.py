@@ -65,4 +65,6 @@ class ExportsPorts(BuilderParts):
         ['clock_out']
         """
         own = self._output("export_output", port)
-        return self._core.export_output(*port_in_core(own, OutputPort), name or "")
+        position = self._core.export_output(*port_in_core(own, OutputPort), name or "")
+        self._exported.append(own)
+        return position

@@ -29,6 +29,7 @@ class BuilderParts:
     def __init__(self) -> None:
         self._core = _core.DiagramBuilder()
         self._children: dict[str, System] = {}
+        self._exported: list[OutputPort] = []
 
     def _output(self, where: str, port: OutputPort | str) -> OutputPort:
         if not isinstance(port, str):

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus._declarations import EVERYTHING, RequiresInputs, callback_of, direction_of, inputs_of
 from saltus._porting import refusing
+from saltus._quantities import Declared, mode_of
 from saltus._whole import is_whole
 from saltus.leaf_system.derivatives import columns_of
 
@@ -26,6 +27,8 @@ class DeclaresGuards(_core.LeafSystem):
 
     __slots__ = ()
 
+    _declared: Declared
+
     @refusing
     def declare_zero_crossing(
         self,
@@ -33,8 +36,8 @@ class DeclaresGuards(_core.LeafSystem):
         reset_map: Callable[..., _core.State | ArrayLike] | None = None,
         name: str | None = None,
         direction: str = "crosses_zero",
-        start_mode: int | None = None,
-        end_mode: int | None = None,
+        start_mode: int | str | None = None,
+        end_mode: int | str | None = None,
         terminal: bool = False,
         zeno_tolerance: float | None = None,
         requires_inputs: RequiresInputs = True,
@@ -132,10 +135,11 @@ class DeclaresGuards(_core.LeafSystem):
         >>> [(event.kind, round(event.time, 9)) for event in events]
         [('scheduled', 1.0), ('executed', 1.25)]
         """
+        what = f"block '{self.name}': zero crossing '{name or ''}'"
         options = {
             "direction": direction_of(direction),
-            "start_mode": start_mode,
-            "end_mode": end_mode,
+            "start_mode": mode_of(what, start_mode, self._declared.modes),
+            "end_mode": mode_of(what, end_mode, self._declared.modes),
             "terminal": terminal,
             "max_count": max_count,
             "size": size,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from saltus import _core
 from saltus._porting import refusing
+from saltus._quantities import Declared
 from saltus.leaf_system.event_inputs import DeclaresEventInputs
 from saltus.leaf_system.guards import DeclaresGuards
 from saltus.leaf_system.ports import DeclaresPorts
@@ -123,9 +124,14 @@ class LeafSystem(
     (array([3.]), True)
     """
 
-    __slots__ = ("_callbacks", "_made")  # not in __dict__, which is watched for traced functions
+    __slots__ = (
+        "_callbacks",
+        "_declared",
+        "_made",
+    )  # not in __dict__, which is watched for traced functions
 
     @refusing
     def __init__(self, name: str | None = None):
         super().__init__(name or _core.next_name(type(self).__name__))
+        self._declared = Declared()
         self._made = True  # earlier, a declaration would find no block

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus._declarations import EVERYTHING, RequiresInputs, callback_of, inputs_of, shape_of
 from saltus._porting import refusing
+from saltus._quantities import Declared
 from saltus.errors import ModelError
 from saltus.leaf_system.derivatives import columns_of
 
@@ -47,6 +48,8 @@ class DeclaresPorts(_core.LeafSystem):
     """Declares the signals that a block reads and shows."""
 
     __slots__ = ()
+
+    _declared: Declared
 
     @refusing
     def declare_input_port(
@@ -151,7 +154,9 @@ class DeclaresPorts(_core.LeafSystem):
         """Declares an output that shows the whole continuous state, which is never copied. Returns
         its position.
         """
-        return super().declare_continuous_state_output(name or "")
+        output = super().declare_continuous_state_output(name or "")
+        self._declared.whole += (output,)
+        return output
 
     @refusing
     def declare_discrete_state_output(self, name: str | None = None) -> int:
@@ -164,4 +169,6 @@ class DeclaresPorts(_core.LeafSystem):
     @refusing
     def declare_mode_output(self, name: str | None = None) -> int:
         """Declares an output that shows the mode. Returns its position."""
-        return super().declare_mode_output(name or "")
+        output = super().declare_mode_output(name or "")
+        self._declared.mode += (output,)
+        return output

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus._declarations import RequiresInputs, callback_of, initial_of, inputs_of, places_of
 from saltus._porting import refusing
+from saltus._quantities import Declared, mode_names, mode_of, units_of
 from saltus.errors import ModelError
 from saltus.leaf_system.derivatives import columns_of
 from saltus.parameter import Parameter, given
@@ -30,6 +31,8 @@ class DeclaresValues(_core.LeafSystem):
 
     __slots__ = ()
 
+    _declared: Declared
+
     @refusing
     def declare_continuous_state(
         self,
@@ -42,6 +45,7 @@ class DeclaresValues(_core.LeafSystem):
         sparse_jacobian: Callable[..., ArrayLike] | None = None,
         formula: bool = False,
         names: Sequence[str] = (),
+        units: Sequence[str] = (),
         derivatives: Callable[..., Mapping[str, ArrayLike]] | None = None,
     ) -> None:
         """Declares the continuous state x, with dx/dt = ode(time, state, *inputs, **parameters), in
@@ -60,7 +64,9 @@ class DeclaresValues(_core.LeafSystem):
 
         `names` names the entries, ``names=["height", "velocity"]``: each is an output of the block,
         which costs nothing, and a value of the context: ``results["height"]``, the columns of
-        tables, ``sweep(ball, {"height": [5.0, 10.0]}, ...)``, ``--set height=5``.
+        tables, ``sweep(ball, {"height": [5.0, 10.0]}, ...)``, ``--set height=5``. A run of the block
+        alone records these outputs by default. `units`, ``units=["m", "m/s"]``, are in the labels of
+        plots and in `Results.units`; nothing is converted or checked. A plain number has the unit "".
 
         `formula` has the meaning that it has in `declare_output_port`.
 
@@ -75,6 +81,7 @@ class DeclaresValues(_core.LeafSystem):
         places = None if jacobian_sparsity is None else places_of(what, jacobian_sparsity)
         if sparse_jacobian is not None and places is None:
             raise ModelError(f"{what}: sparse_jacobian without jacobian_sparsity; give both")
+        labels, checked = names_of(what, names), units_of(what, units, np.size(initial))
         super().declare_continuous_state(
             initial,
             callback_of(ode),
@@ -83,7 +90,7 @@ class DeclaresValues(_core.LeafSystem):
             places,
             callback_of(sparse_jacobian),
             bool(formula),
-            names_of(what, names),
+            labels,
             columns_of(
                 derivatives,
                 self,
@@ -92,6 +99,8 @@ class DeclaresValues(_core.LeafSystem):
                 "derivatives of ode",
             ),
         )
+        self._declared.units = checked
+        self._declared.states = tuple(self.output_names.index(name) for name in labels)
 
     @refusing
     def declare_discrete_state(
@@ -107,11 +116,17 @@ class DeclaresValues(_core.LeafSystem):
         )
 
     @refusing
-    def declare_default_mode(self, mode: int) -> None:
+    def declare_default_mode(self, mode: int | str, names: Sequence[str] = ()) -> None:
         """Declares the mode in which the block starts: an integer that selects among its zero
         crossings, see `start_mode` there.
+
+        `names` names the modes 0, 1, ...: ``declare_default_mode("off", names=["off", "on"])``. Then
+        `start_mode` and `end_mode` may be names, and pictures show them. `state.mode` is the number.
         """
-        super().declare_default_mode(mode)
+        what = f"block '{self.name}': default mode"
+        labels = mode_names(what, names)
+        super().declare_default_mode(mode_of(what, mode, labels))
+        self._declared.modes = labels
 
     @refusing
     def declare_dynamic_parameter(self, name: str, default_value: ArrayLike | Parameter) -> None:

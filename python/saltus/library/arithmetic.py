@@ -125,8 +125,8 @@ class Product(Block, _core.Product):
     n_in
         The number of inputs; or the operators, in their place.
     operators
-        "*" or "/" for each input: "*/" is u_0 / u_1. Without them all are "*", for two inputs if
-        `n_in` is not given either.
+        `"*"` or `"/"` for each input: `"*/"` is u_0 / u_1. Without them all are `"*"`, for two
+        inputs if `n_in` is not given either.
     name
         The name in messages, in contexts and for `diagram[...]`; by default its class and number.
 

@@ -6,6 +6,7 @@ in the order of the wires, then all states, so no block delays another.
 
 from __future__ import annotations
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
@@ -217,6 +218,8 @@ class LTISystemDiscrete(Block, _core.LTISystemDiscrete):
         *,
         name: str | None = None,
     ):
+        if np.ndim(dt) == 2 and D is not None and np.ndim(D) == 0:  # (A, B, C, D, dt) elsewhere
+            dt, A, B, C, D = D, dt, A, B, C  # type: ignore[assignment]
         super().__init__(self._named(name), dt, A, B, C, D, initial_state)
 
 

@@ -74,6 +74,8 @@ class MatrixMultiplication(Block, _core.MatrixMultiplication):
         name: str | None = None,
     ):
         own = self._named(name)
+        if right_shape is None and is_whole(left_shape) and left_shape == 2:
+            left_shape = None  # it is the number of inputs in pycollimator
         if left_shape is None and right_shape is None:
             super().__init__(own)
             return

@@ -87,8 +87,10 @@ class MinMax(Block, _core.MinMax):
     array([3., 5.])
     """
 
-    def __init__(self, operator: str, n_inputs: int = 2, *, name: str | None = None):
-        super().__init__(self._named(name), operator, n_inputs)
+    def __init__(self, operator: str | int, n_inputs: int | str = 2, *, name: str | None = None):
+        if isinstance(n_inputs, str):  # MinMax(2, "max") in pycollimator
+            operator, n_inputs = n_inputs, operator
+        super().__init__(self._named(name), operator, n_inputs)  # type: ignore[arg-type]
 
 
 class Quantizer(Block, _core.Quantizer):

@@ -175,10 +175,10 @@ class Pulse(Block, _core.Pulse):
     def __init__(
         self,
         amplitude: ArrayLike = 1.0,
+        *,  # in other tools the width is before the period
         period: float = 1.0,
         pulse_width: float = 0.5,
         phase_delay: float = 0.0,
-        *,
         name: str | None = None,
     ):
         super().__init__(self._named(name), amplitude, period, pulse_width, phase_delay)

@@ -146,6 +146,8 @@ class StateMachine(LeafSystem):
                 returns.add(taken.source)
             elif condition.trigger is None:
                 before[taken.source].append(condition)
+        self._declared.modes = self._states
+        self._declared.mode = (self.output_names.index("state"),)
 
     @property
     def states(self) -> tuple[str, ...]:

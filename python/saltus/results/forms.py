@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from os import PathLike
 from typing import TYPE_CHECKING, Any, cast
 
@@ -122,4 +123,5 @@ class Forms:
 
     def _kind(self) -> dict[str, Any]:
         """The entries of the file's header that say which class of results it holds."""
-        return {"kind": "Results"}
+        known = self._whole._quantities
+        return {"kind": "Results", "quantities": {name: asdict(one) for name, one in known.items()}}

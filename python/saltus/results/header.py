@@ -10,10 +10,18 @@ from typing import Any, NoReturn
 import numpy as np
 
 from saltus import _core
+from saltus._quantities import Quantity
 from saltus.errors import ModelError
 from saltus.results.statistics import Statistics
 
-__all__ = ["checked_arrays", "checked_events", "checked_statistics", "strings", "text"]
+__all__ = [
+    "checked_arrays",
+    "checked_events",
+    "checked_quantities",
+    "checked_statistics",
+    "strings",
+    "text",
+]
 
 KINDS = (
     "zero_crossing", "time", "zeno_enter", "zeno_release", "terminal",
@@ -74,6 +82,21 @@ def checked_arrays(names: list[str], arrays: dict[str, np.ndarray]) -> dict[str,
     if not (np.isfinite(time).all() and (np.diff(time) >= 0).all()):
         raise ModelError("'time' decreases, or is not finite")
     return outputs
+
+
+def checked_quantities(data: object, outputs: dict[str, np.ndarray]) -> dict[str, Quantity]:
+    """The units and the names of modes of the signals that have them."""
+    if not isinstance(data, dict):
+        refuse("'quantities'", "an object", data)
+    found = {}
+    for name, one in data.items():
+        if name not in outputs or not isinstance(one, dict) or set(one) != {"units", "modes"}:
+            refuse("'quantities'", "units and modes of recorded signals", {name: one})
+        units, modes = (strings(f"'{key}' of '{name}'", one[key]) for key in ("units", "modes"))
+        if units and len(units) != outputs[name][:1].size and len(outputs[name]):
+            refuse(f"'units' of '{name}'", "one for each entry", units)
+        found[name] = Quantity(tuple(units), tuple(modes))
+    return found
 
 
 def _stretch(part: Any) -> tuple[str, float, float, int]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from copy import deepcopy
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -11,10 +12,12 @@ from numpy.typing import ArrayLike
 
 from saltus import _core
 from saltus._porting import missing
+from saltus._quantities import Quantity
 from saltus.errors import Error, ModelError, SimulationError
 from saltus.results.elsewhere import INSTEAD
 from saltus.results.events import EventLog
 from saltus.results.forms import Forms
+from saltus.results.header import checked_quantities
 from saltus.results.pictures import Pictures
 from saltus.results.record import KINDS, KeptRun, Record
 from saltus.results.rows import Rows
@@ -50,8 +53,15 @@ class Results(Rows, Pictures, Forms):
     cause: BaseException | None = None
     """the exception, if the status is 'failed'"""
 
-    def __init__(self, core: Record, raised: BaseException | None = None, asks: Any = None):
+    def __init__(
+        self,
+        core: Record,
+        raised: BaseException | None = None,
+        asks: Any = None,
+        quantities: Mapping[str, Quantity] = {},
+    ):
         self._core = core
+        self._quantities = dict(quantities)  # what signals show, where their blocks say it
         self._asks = asks if core.dense else None  # the system whose outputs dense output calls
         if core.status == "failed" and asks is not None:
             self._explain(core, raised, asks)
@@ -104,6 +114,34 @@ class Results(Rows, Pictures, Forms):
         ('e', 'x[0]')
         """
         return Sensitivities(self._core, self._asks)
+
+    @property
+    def units(self) -> dict[str, str | tuple[str, ...]]:
+        """The unit of each recorded signal that has one, of a vector one for each entry.
+
+        It is what the block says that declares the state, ``declare_continuous_state(...,
+        units=["m", "m/s"])``; a signal that is computed has none.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> tank = saltus.LeafSystem(name="tank")
+        >>> tank.declare_continuous_state(
+        ...     [0.0], ode=lambda t, s: [0.1], names=["level"], units=["m"]
+        ... )
+        >>> saltus.simulate(tank, (0.0, 2.0)).units
+        {'level': 'm'}
+        """
+        known = {name: one.units for name, one in self._quantities.items() if any(one.units)}
+        return {
+            name: units if self.outputs[name].ndim > 1 else units[0]
+            for name, units in known.items()
+        }
+
+    @property
+    def mode_names(self) -> dict[str, tuple[str, ...]]:
+        """The names of the modes 0, 1, ... of each recorded signal that shows a mode with names."""
+        return {name: one.modes for name, one in self._quantities.items() if one.modes}
 
     @property
     def sensitivity_gaps(self) -> tuple[Gap, ...]:
@@ -221,7 +259,7 @@ class Results(Rows, Pictures, Forms):
 
     def _failure(self) -> dict[str, Any]:
         """The state of a pickle: its cause may refer back to these results."""
-        return {"cause": self.cause, "message": self.message}
+        return {"cause": self.cause, "message": self.message, "_quantities": self._quantities}
 
     def __repr__(self) -> str:
         from saltus.results.text import as_text
@@ -234,4 +272,10 @@ class Results(Rows, Pictures, Forms):
         return as_html(self)
 
 
-KINDS["Results"] = lambda run, header: Results(run)
+def _loaded(run: KeptRun, header: dict[str, Any]) -> Results:
+    results = Results(run)
+    results._quantities = checked_quantities(header.get("quantities", {}), run.outputs)
+    return results
+
+
+KINDS["Results"] = _loaded

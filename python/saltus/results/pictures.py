@@ -29,8 +29,9 @@ class Pictures:
         """Draws recorded signals over time. Needs matplotlib or plotly.
 
         A jump is a gap with a hollow marker before and a filled one after it, a Zeno hold is
-        shaded, each event has a tick at the bottom. Where the run kept dense output, curves are
-        drawn from that, else straight from row to row.
+        shaded, each event of a guard has a tick at the bottom. Where the run kept dense output,
+        curves are drawn from that, else straight from row to row. Labels have the units of states,
+        and an axis that shows a mode its names, where the blocks say them.
 
         Parameters
         ----------

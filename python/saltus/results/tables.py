@@ -67,10 +67,17 @@ def to_pandas(results: Results) -> pandas.DataFrame:
     return frame
 
 
+def _attributes(results: Results, name: str) -> dict[str, str]:
+    """The unit, if all entries of the signal have the same."""
+    units = results.units.get(name, "")
+    unit = units if isinstance(units, str) else units[0] if len(set(units)) == 1 else ""
+    return {"units": unit} if unit else {}
+
+
 def to_xarray(results: Results) -> xarray.Dataset:
     library = extra("xarray", "to_xarray")
     signals = {
-        name: (("time", *dimension_names(name, array.ndim - 1)), array)
+        name: (("time", *dimension_names(name, array.ndim - 1)), array, _attributes(results, name))
         for name, array in results.outputs.items()
     }
     coordinates = {"time": ("time", results.time, {"units": "s"}), "jump": ("time", results.jump)}

@@ -50,10 +50,18 @@ def _method(results: Results) -> str:
     return f"{' and '.join(used)} ({len(s.stretches)} stretches)"
 
 
+def _unit(results: Results, name: str) -> str:
+    """' [m]', or ' [m, m/s]' of a vector; '' of a signal without a unit."""
+    units = results.units.get(name, "")
+    return f" [{units if isinstance(units, str) else ', '.join(units)}]" if units else ""
+
+
 def _facts(results: Results) -> list[tuple[str, str]]:
     """The content of each line after the status."""
     s = results.statistics
-    signals = ", ".join(f"{name} {array.shape}" for name, array in results.outputs.items())
+    signals = ", ".join(
+        f"{name} {array.shape}{_unit(results, name)}" for name, array in results.outputs.items()
+    )
     rests = [e for e in results.events if e.kind == "zeno_enter"] if s.events else []
     facts = [
         ("why", results.message),

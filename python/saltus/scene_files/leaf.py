@@ -136,13 +136,14 @@ class _Maker:
 
     def states(self) -> None:
         starts: list[tuple[Path, Any]] = []
-        rates = []
+        rates, units = [], []
         for name, value in self.table.get("states", {}).items():
             path = (*self.path, "states", name)
             value = table_at(path, value, "{ start = 1.0, rate = '-k * x' }")
             require_keys(path, value, ("start", "rate", "unit", "description"))
             require_texts(path, value)
             starts.append(((*path, "start"), value.get("start", 0.0)))
+            units.append(value.get("unit", ""))
             rates.append(self.scope.expression((*path, "rate"), value.get("rate", 0.0)))
         self.leaf.starts, self.leaf.state_names = starts, []
         if starts:
@@ -152,8 +153,9 @@ class _Maker:
             numbers = [self.start(*each) for each in starts]
             with placed((*self.path, "states")):
                 self.leaf.declare_continuous_state(
-                    numbers, ode=ode, requires_inputs=inputs, names=self.leaf.state_names
-                )
+                    numbers, ode=ode, requires_inputs=inputs, names=self.leaf.state_names,
+                    units=units if any(units) else (),
+                )  # fmt: skip
         path = (*self.path, "discrete")
         held = [((*path, name), value) for name, value in self.table.get("discrete", {}).items()]
         self.leaf.held_starts = held
@@ -177,7 +179,8 @@ class _Maker:
         path = (*self.path, "mode")
         if not self.scope.modes:
             raise Wrong(path, "expected a list of 'modes' beside the mode at the start")
-        self.leaf.declare_default_mode(self.mode(path, self.table.get("mode", self.scope.modes[0])))
+        start = self.mode(path, self.table.get("mode", self.scope.modes[0]))
+        self.leaf.declare_default_mode(start, names=self.scope.modes)
 
     def mode(self, path: Path, value: Any) -> int:
         return self.scope.modes.index(chosen(path, value, self.scope.modes, "mode"))

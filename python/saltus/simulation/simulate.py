@@ -8,6 +8,7 @@ from typing import Any
 from saltus import _core
 from saltus._engine import core_context
 from saltus._porting import OPTIONS, refuse
+from saltus._signals import quantities_of
 from saltus._span import rows_within, span_of
 from saltus.options import SimulatorOptions
 from saltus.results import Results
@@ -40,7 +41,8 @@ def simulate(
         The options of the run.
     recorded_signals : dict of str to OutputPort or str, or a list of str, optional
         The outputs to record, by name: ports, or paths such as "car.engine.torque". A list of paths
-        names each signal by its path. By default the outputs that a diagram exports.
+        names each signal by its path. By default the outputs that a diagram exports, or of a block
+        the states that have names; ``[]`` records nothing.
     **option_overrides
         Any option by name; it replaces the one in `options`: ``rtol=1e-9``,
         ``dense_output=True``, ``progress=True``, ...
@@ -94,6 +96,8 @@ def simulate(
     if recorded_signals is not None:
         option_overrides["recorded_signals"] = recorded_signals
     run = prepared("Simulator", system, options, option_overrides)
+    asked = option_overrides.get("recorded_signals", options and options.recorded_signals)
+    known = quantities_of(system, asked)
     save_at = option_overrides.get("save_at", () if options is None else options.save_at)
     if len(save_at):
         rows = rows_within("simulate", save_at, (begin, end))
@@ -104,5 +108,5 @@ def simulate(
     if context.time != begin:
         context = context.with_time(begin)
     return run_whole(
-        run, context, end, lambda core, raised: (Results(core, raised, system), raised)
+        run, context, end, lambda core, raised: (Results(core, raised, system, known), raised)
     )

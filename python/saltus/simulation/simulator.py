@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from saltus import _core
 from saltus._engine import core_context, core_options
 from saltus._porting import missing
+from saltus._signals import quantities_of
 from saltus._status import WELL
 from saltus.callbacks import Callbacks, planned
 from saltus.errors import ModelError
@@ -202,7 +203,8 @@ class Simulator:
         core, raised = self._core.results()
         shown = self._shown()
         if shown is None or shown._core is not core:
-            shown = Results(core, raised, self.system)
+            known = quantities_of(self.system, self.options.recorded_signals)
+            shown = Results(core, raised, self.system, known)
             self._shown = weakref.ref(shown)
         return shown, raised
 

@@ -164,7 +164,7 @@ def test_a_context_that_is_no_context_or_of_another_system_is_refused(system):
         ),
         (
             lambda s: s.declare_default_mode(1.5),
-            "declare_default_mode: expected mode: int; found mode = 1.5",
+            "declare_default_mode: expected mode: int | str; found mode = 1.5",
         ),
         (
             lambda s: s.declare_input_port("u", shape=-1),

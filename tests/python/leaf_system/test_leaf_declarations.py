@@ -36,7 +36,7 @@ def test_default_name_is_class_and_id():
             lambda s: s.declare_continuous_state(1, odd=len),
             "declare_continuous_state: unknown option 'odd'; did you mean 'ode'? "
             "Known: 'shape', 'default_value', 'ode', 'requires_inputs', 'jacobian', "
-            "'jacobian_sparsity', 'sparse_jacobian', 'formula', 'names', 'derivatives'",
+            "'jacobian_sparsity', 'sparse_jacobian', 'formula', 'names', 'units', 'derivatives'",
         ),
         (
             lambda s: s.declare_zero_crossing(len, direction="crosses_zer0"),

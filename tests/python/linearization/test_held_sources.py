@@ -8,7 +8,7 @@ from saltus.library import Constant, DataSource, Gain, Integrator, Pulse, Ramp, 
 SOURCES = {
     "Step before": (lambda: Step(2.0, 3.0, 1.0, name="s"), "s.start_value", 0.0, 1.0),
     "Step after": (lambda: Step(2.0, 3.0, 1.0, name="s"), "s.start_value", 1.5, 0.0),
-    "Pulse": (lambda: Pulse(2.0, 1.0, name="s"), "s.amplitude", 0.0, 1.0),
+    "Pulse": (lambda: Pulse(2.0, period=1.0, name="s"), "s.amplitude", 0.0, 1.0),
     "DataSource": (
         lambda: DataSource([0.0, 1.0, 2.0], [2.0, 3.0, 4.0], "zero_order_hold", name="s"),
         "s.values[0]",

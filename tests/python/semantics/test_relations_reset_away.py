@@ -57,7 +57,7 @@ def test_an_edge_is_counted_once(start, method):
     two.
     """
     builder = saltus.DiagramBuilder()
-    pulse = builder.add(Pulse(1.5, 2.0, 0.4, phase_delay=2.0))
+    pulse = builder.add(Pulse(1.5, period=2.0, pulse_width=0.4, phase_delay=2.0))
     x = builder.add(Integrator(start, name="x", enable_reset=True))
     rises, counted = builder.add(Comparator(">")), builder.add(Comparator("<"))
     counter, other = builder.add(Counter()), builder.add(Integrator())

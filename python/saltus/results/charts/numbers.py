@@ -15,7 +15,7 @@ from saltus.results.curves import Curve, curves_of
 if TYPE_CHECKING:
     from saltus.results.outcome import Results
 
-__all__ = ["Which", "curve", "label_of", "labels_of", "number_at"]
+__all__ = ["Which", "curve", "label_of", "labels_of", "number_at", "with_unit"]
 
 Which = str | int
 
@@ -44,6 +44,16 @@ def label_of(results: Results, which: Which) -> str:
     if which not in labels:
         raise ModelError(f"nothing was recorded under {which!r}{known_names(str(which), labels)}")
     return str(which)
+
+
+def with_unit(results: Results, label: str) -> str:
+    """The name of a recorded number with its unit: 'height [m]'."""
+    for name, one in results._quantities.items():
+        labels = entry_names(name, results.outputs[name].shape[1:])
+        if any(one.units) and label in labels:
+            unit = one.units[labels.index(label)]
+            return f"{label} [{unit}]" if unit else label
+    return label
 
 
 def curve(results: Results, which: Which) -> Curve:

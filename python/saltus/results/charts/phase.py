@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from saltus.results.charts.chart import Chart, Layer
-from saltus.results.charts.numbers import Which, label_of, labels_of
+from saltus.results.charts.numbers import Which, label_of, labels_of, with_unit
 from saltus.results.curves import refined
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def chart_of(results: Results, x: Which, y: Which) -> Chart:
         flow = np.insert(points, leap, np.nan, axis=0)
         layers = [_layer(flow, "line"), *_jumps(points[leap - 1], points[leap])]
         layers.append(_layer(points[:1], "square"))
-    return Chart(*labels, layers)
+    return Chart(with_unit(results, labels[0]), with_unit(results, labels[1]), layers)
 
 
 def _layer(points: np.ndarray, kind: str) -> Layer:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from saltus._core import known_names
 from saltus.errors import ModelError
 from saltus.results.charts.chart import Chart, Layer
-from saltus.results.charts.numbers import Which, label_of, number_at
+from saltus.results.charts.numbers import Which, label_of, number_at, with_unit
 
 if TYPE_CHECKING:
     from saltus.results.outcome import Results
@@ -23,5 +23,5 @@ def chart_of(results: Results, name: str, chosen: tuple[Which, Which], side: str
     if not len(times):
         raise ModelError(f"plot_section: '{name}' never happened in this run")
     x, y = (number_at(results, which, times, side) for which in chosen)
-    labels = [label_of(results, which) for which in chosen]
+    labels = [with_unit(results, label_of(results, which)) for which in chosen]
     return Chart(f"{labels[0]} at {name}", labels[1], [Layer(x, y, "filled")])

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from saltus._core import known_names
 from saltus.errors import ModelError
+from saltus.results.charts.numbers import with_unit
 from saltus.results.curves import Curve, curves_of, holds_of
 from saltus.results.tables import extra
 
@@ -18,6 +20,7 @@ __all__ = ["chosen", "plot", "wide_jumps"]
 
 FEW = 60  # the number of jumps with full markers; more markers would cover the curve
 TINY = 0.02  # part of the range of the curve; the markers of a smaller jump would cover each other
+GUARDS = ("zero_crossing", "terminal", "executed")  # kinds of events
 MANY = 400  # the number of events with a tick each
 Panels = list[tuple[str, list[Curve]]]
 
@@ -28,6 +31,8 @@ def plot(results: Results, names: tuple[str, ...], ax: Any, style: dict[str, Any
     if ax is not None:
         curves = [curve for _, group in panels for curve in group]
         _draw(ax, results, curves, panels[0][0] if len(panels) == 1 else "", style)
+        if len(panels) == 1:
+            _name_modes(ax, results, curves)
         ax.set_xlabel("time [s]")
         return ax
     plt = extra("matplotlib.pyplot", "plot", ", or install Saltus with the extra [plot]")
@@ -36,6 +41,7 @@ def plot(results: Results, names: tuple[str, ...], ax: Any, style: dict[str, Any
     _, axes = plt.subplots(count, 1, sharex=True, squeeze=False, figsize=size, layout="constrained")
     for each, (title, curves) in zip(axes[:, 0], panels, strict=True):
         _draw(each, results, curves, title, style)
+        _name_modes(each, results, curves)
     axes[-1, 0].set_xlabel("time [s]")
     axes[0, 0].figure.align_ylabels()
     return axes[0, 0] if count == 1 else axes[:, 0]
@@ -52,7 +58,23 @@ def chosen(results: Results, names: tuple[str, ...]) -> Panels:
         if name not in known:
             hint = known_names(str(name), list(known))
             raise ModelError(f"nothing was recorded under {name!r}{hint}")
-    return [(name, known[name]) for name in (names or signals)]
+    return [titled(results, name, known[name]) for name in (names or signals)]
+
+
+def titled(results: Results, name: str, curves: list[Curve]) -> tuple[str, list[Curve]]:
+    """The title with the unit of all curves, or each label with its own."""
+    labels = [with_unit(results, curve.label) for curve in curves]
+    units = {label[len(c.label) :] for label, c in zip(labels, curves, strict=True)}
+    if len(units) == 1:
+        return name + units.pop(), curves
+    return name, [replace(c, label=label) for label, c in zip(labels, curves, strict=True)]
+
+
+def _name_modes(ax: Any, results: Results, curves: list[Curve]) -> None:
+    """Names of modes in place of their numbers, on axes that show nothing else."""
+    names = results.mode_names.get(curves[0].label, ()) if len(curves) == 1 else ()
+    if names:
+        ax.set_yticks(range(len(names)), names)
 
 
 def _draw(
@@ -100,9 +122,9 @@ def _mark_jumps(ax: Any, curve: Curve, line: Any) -> None:
 
 
 def _mark_events(ax: Any, results: Results) -> None:
-    """A tick at the bottom for each event."""
+    """A tick at the bottom for each event of a guard; ticks of clocks would hide them."""
     if not 0 < len(results.events) <= MANY:
         return
-    times = sorted({event.time for event in results.events})
+    times = sorted({event.time for event in results.events if event.kind in GUARDS})
     across = ax.get_xaxis_transform()  # x in seconds, y in parts of the axes
     ax.vlines(times, 0.0, 0.03, transform=across, color="0.35", linewidth=0.8, zorder=1)

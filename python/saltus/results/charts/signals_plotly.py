@@ -25,6 +25,8 @@ def plot(results: Results, names: tuple[str, ...], style: dict[str, Any]) -> Any
     drawn.update_layout(xaxis={**AXIS, "title": {"text": "time [s]"}, "anchor": f"y{last}"})
     for row, (title, curves) in enumerate(panels):
         axis = {**AXIS, "title": {"text": title}, "domain": _domain(row, last)}
+        if len(curves) == 1 and (modes := results.mode_names.get(curves[0].label)):
+            axis |= {"tickvals": list(range(len(modes))), "ticktext": list(modes)}
         drawn.update_layout({f"yaxis{row + 1}": axis})
         for number, each in enumerate(curves):
             _add(drawn, each, row, COLOURS[number % len(COLOURS)], len(curves) > 1, style)

@@ -8,7 +8,7 @@ import numpy as np
 
 from saltus.errors import ModelError
 from saltus.results.charts.chart import Chart, Layer
-from saltus.results.charts.numbers import Which, curve
+from saltus.results.charts.numbers import Which, curve, with_unit
 from saltus.results.events import Event
 from saltus.results.record import FIRINGS
 
@@ -38,7 +38,8 @@ def chart_of(results: Results, name: str | None, signal: Which | None) -> Chart:
     if positive:  # a height is zero, or rounding, at the events: no logarithm shows that
         value = np.where(np.isin(drawn.time[rows], times) | (value <= 0.0), np.nan, value)
     layer = Layer(left, value, "line")
-    return Chart(label, drawn.label, [layer], x_log=True, y_log=positive, backwards=True)
+    y_label = with_unit(results, drawn.label)
+    return Chart(label, y_label, [layer], x_log=True, y_log=positive, backwards=True)
 
 
 def _hold(results: Results, name: str | None) -> Event:

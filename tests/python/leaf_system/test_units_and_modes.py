@@ -1,0 +1,219 @@
+"""Units of states and names of modes: in results, in pictures, through diagrams, in files."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+import saltus
+from saltus.library import StateMachine, Transition
+from saltus.scene_files import loads
+
+
+class Room(saltus.LeafSystem):
+    """dT/dt = 30 K/h * mode - (T - 10 °C) / h; the outside wind does not change."""
+
+    def __init__(self, name="room"):
+        super().__init__(name=name)
+        self.declare_continuous_state(
+            [20.0, 1.0], ode=self.flow, names=["temperature", "wind"], units=["°C", "m/s"]
+        )
+        self.declare_default_mode("on", names=["off", "on"])
+        self.declare_mode_output("heater")
+        self.declare_continuous_state_output("all")
+        for name, at, way, before, after in (
+            ("warm", 21.0, "rising", "on", "off"),
+            ("cold", 19.0, "falling", "off", "on"),
+        ):
+            self.declare_zero_crossing(
+                lambda time, state, at=at: state.continuous_state[0] - at,
+                name=name, direction=way, start_mode=before, end_mode=after,
+            )  # fmt: skip
+
+    def flow(self, time, state):
+        return [30.0 * state.mode - (state.continuous_state[0] - 10.0), 0.0]
+
+
+def run(**options):
+    return saltus.simulate(Room(), (0.0, 1.0), **options)
+
+
+def house(depth=1):
+    system = Room()
+    for level in range(depth):
+        builder = saltus.DiagramBuilder()
+        builder.add(system)
+        inner = system.name
+        builder.export_output(f"{inner}.heater", "heater")
+        builder.export_output(f"{inner}.temperature", "temperature")
+        system = builder.build(f"level_{level}")
+    return system
+
+
+def test_a_block_alone_records_the_states_that_have_names():
+    results = run()
+    assert list(results.outputs) == ["temperature", "wind"]
+    assert results.units == {"temperature": "°C", "wind": "m/s"}
+    assert not run(recorded_signals=[]).outputs
+
+
+def test_a_vector_has_a_unit_for_each_entry_and_a_mode_has_names():
+    results = run(recorded_signals={"x": "all", "h": "heater"})
+    assert results.units == {"x": ("°C", "m/s")}
+    assert results.mode_names == {"h": ("off", "on")}
+
+
+def test_modes_by_name_are_those_by_number():
+    warm, cold = (run().events.times(name) for name in ("warm", "cold"))
+    # heated, 40 - T falls from 20 to 19; then T - 10 falls from 11 to 9, and 40 - T from 21 to 19.
+    # A temperature of 20 is right to rtol 1e-6, at a slope of 9 K/h or more.
+    assert warm[0] == pytest.approx(np.log(20 / 19), abs=1e-5)
+    assert cold[0] - warm[0] == pytest.approx(np.log(11 / 9), abs=1e-5)
+    assert warm[1] - cold[0] == pytest.approx(np.log(21 / 19), abs=1e-5)
+
+
+@pytest.mark.parametrize("depth", [1, 2, 3])
+def test_outputs_of_diagrams_show_what_their_blocks_say(depth):
+    results = saltus.simulate(house(depth), (0.0, 0.1))
+    assert results.units == {"temperature": "°C"}
+    assert results.mode_names == {"heater": ("off", "on")}
+
+
+def test_a_signal_by_its_path_has_its_unit():
+    results = saltus.simulate(house(2), (0.0, 0.1), recorded_signals=["level_0.room.temperature"])
+    assert results.units == {"level_0.room.temperature": "°C"}
+
+
+def test_a_simulator_knows_them_too():
+    system = Room()
+    simulator = saltus.Simulator(system).initialize(system.create_context())
+    simulator.advance_to(0.1)
+    assert simulator.results.units == {"temperature": "°C", "wind": "m/s"}
+
+
+def test_they_are_in_files_pickles_and_copies(tmp_path):
+    results = run(recorded_signals=["all", "heater"])
+    results.save(tmp_path / "room.npz")
+    for other in (
+        saltus.load(tmp_path / "room.npz"),
+        pickle.loads(pickle.dumps(results)),
+        copy.deepcopy(results),
+    ):
+        assert other.units == {"all": ("°C", "m/s")}
+        assert other.mode_names == {"heater": ("off", "on")}
+
+
+def test_they_are_in_text_and_tables():
+    results = run()
+    assert "temperature (" in str(results) and ") [°C], wind" in str(results)
+    xarray = pytest.importorskip("xarray")
+    assert isinstance(results.to_xarray(), xarray.Dataset)
+    assert results.to_xarray()["wind"].attrs == {"units": "m/s"}
+
+
+def test_labels_have_units_and_a_mode_has_its_names_on_the_axis():
+    pytest.importorskip("matplotlib")
+    results = run(recorded_signals=["temperature", "all", "heater"])
+    one, many, mode = results.plot()
+    assert one.get_ylabel() == "temperature [°C]" and many.get_ylabel() == "all"
+    legend = [text.get_text() for text in many.get_legend().get_texts()]
+    assert legend == ["all[0] [°C]", "all[1] [m/s]"]
+    assert [tick.get_text() for tick in mode.get_yticklabels()] == ["off", "on"]
+    portrait = results.plot_phase("temperature", "all[1]")
+    assert (portrait.get_xlabel(), portrait.get_ylabel()) == ("temperature [°C]", "all[1] [m/s]")
+
+
+def test_plotly_has_them_too():
+    pytest.importorskip("plotly")
+    drawn = run(recorded_signals=["temperature", "heater"]).plot(backend="plotly")
+    assert drawn.layout.yaxis.title.text == "temperature [°C]"
+    assert list(drawn.layout.yaxis2.ticktext) == ["off", "on"]
+
+
+def test_the_picture_of_the_modes_has_their_names():
+    text = Room().to_mermaid("modes")
+    assert 'state "off" as m0' in text and 'state "on" as m1' in text
+
+
+def test_a_state_machine_names_its_states():
+    door = StateMachine(["closed", "open"], [Transition("closed", "open", after=1.0)], name="door")
+    results = saltus.simulate(door, (0.0, 2.0), recorded_signals=["state"])
+    assert results.mode_names == {"state": ("closed", "open")}
+
+
+def test_a_scene_file_says_units_and_modes():
+    scene = loads(
+        'version = 1\nmodes = ["rest", "go"]\n[states]\nway = { rate = "1", unit = "m" }\ny = {}\n'
+        '[run]\nuntil = 1.0\nrecord = ["way", "y", "mode"]\n'
+    )
+    results = scene.simulate()
+    assert results.units == {"way": "m"}
+    assert results.mode_names == {"mode": ("rest", "go")}
+
+
+def declare(**given):
+    system = saltus.LeafSystem(name="ball")
+    system.declare_continuous_state(2, **given)
+    return system
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: declare(units=["m"]), "units: expected 2, one for each state, found 1: 'm'"),
+        (lambda: declare(units="m"), r'units: expected \["m", "m/s"\], found \'m\''),
+        (lambda: declare(units=[1, 2]), "units: expected"),
+        (lambda: declare().declare_default_mode("on"), "unknown mode 'on'; name the modes first"),
+        (
+            lambda: declare().declare_default_mode("onn", names=["off", "on"]),
+            "unknown mode 'onn'; did you mean 'on'",
+        ),
+        (lambda: declare().declare_default_mode(2, names=["off", "on"]), "a mode from 0 to 1"),
+        (lambda: declare().declare_default_mode(0, names=["on", "on"]), "'on' is given twice"),
+        (lambda: declare().declare_default_mode(0, names=["on", ""]), "a mode has an empty name"),
+        (lambda: declare().declare_default_mode(0, names="on"), "names: expected"),
+        (
+            lambda: Room().declare_zero_crossing(lambda t, s: 1.0, name="g", start_mode="of"),
+            "zero crossing 'g': unknown mode 'of'; did you mean 'off'",
+        ),
+        (
+            lambda: Room().declare_zero_crossing(lambda t, s: 1.0, name="g", end_mode=2),
+            "zero crossing 'g': expected a mode from 0 to 1, which have names, found 2",
+        ),
+    ],
+)
+def test_what_makes_no_sense_is_refused(make, words):
+    with pytest.raises(saltus.ModelError, match=words):
+        make()
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        {"heater": {"units": [], "modes": [1]}},
+        {"nobody": {"units": [], "modes": []}},
+        {"all": {"units": ["m"], "modes": []}},
+        {"all": 3},
+        [],
+    ],
+)
+def test_a_damaged_file_is_refused(tmp_path, monkeypatch, damage):
+    from saltus.results.forms import Forms
+
+    results = run(recorded_signals=["all", "heater"])
+    monkeypatch.setattr(Forms, "_kind", lambda self: {"kind": "Results", "quantities": damage})
+    results.save(tmp_path / "room.npz")
+    with pytest.raises(saltus.ModelError, match="damaged"):
+        saltus.load(tmp_path / "room.npz")
+
+
+def test_ticks_are_for_guards_and_not_for_clocks():
+    pytest.importorskip("matplotlib")
+    system = Room()
+    system.declare_periodic_update(None, period=0.01, name="clock")
+    results = saltus.simulate(system, (0.0, 1.0))
+    axes = results.plot("temperature")
+    (ticks,) = axes.collections
+    times = sorted(e.time for e in results.events if e.kind == "zero_crossing")
+    assert len(results.events) > 100 > len(times) > 3
+    np.testing.assert_array_equal([s[0][0] for s in ticks.get_segments()], times)
