@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
@@ -51,8 +51,8 @@ Within within_known(const VectorXd& residuals, const MatrixXd& jacobian,
     spread[i] = rho.first * rho.first * residuals[i] * residuals[i];
   }
   const MatrixXd hessian = jacobian.transpose() * curved.asDiagonal() * jacobian;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(hessian, Eigen::EigenvaluesOnly);
-  if (eigen.eigenvalues()[0] <= 0.0) return {MatrixXd::Zero(rank, rank), true};
+  // The signs of D are those of the eigenvalues (Sylvester's law of inertia).
+  if (hessian.ldlt().vectorD().minCoeff() <= 0.0) return {MatrixXd::Zero(rank, rank), true};
   const MatrixXd inverse = hessian.inverse();
   const MatrixXd middle = jacobian.transpose() * spread.asDiagonal() * jacobian;
   return {inverse * middle * inverse * (static_cast<double>(residuals.size()) / dof)};

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include "saltus/analysis/detail/thresholds.hpp"
+#include "saltus/base/detail/eigenvalues.hpp"
 #include "saltus/base/error.hpp"
 
 namespace saltus {
@@ -48,7 +48,7 @@ MatrixXd across_flow(const MatrixXd& matrix, const VectorXd& flow) {
 
 Eigen::VectorXcd largest_first(const MatrixXd& matrix) {
   if (matrix.size() == 0) return {};
-  Eigen::VectorXcd values = matrix.eigenvalues();
+  Eigen::VectorXcd values = detail::eigenvalues(matrix);
   std::stable_sort(values.begin(), values.end(),
                    [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   return values;

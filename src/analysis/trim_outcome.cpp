@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
 #include "saltus/analysis/detail/thresholds.hpp"
@@ -29,7 +28,7 @@ std::optional<TrimPoint> beside(TrimProblem& problem, const TrimPoint& point,
   return problem.tried(values);
 }
 
-double largest_real(const Eigen::MatrixXd& a) { return a.eigenvalues().real().maxCoeff(); }
+double largest_real(const Eigen::MatrixXd& a) { return detail::eigenvalues(a).real().maxCoeff(); }
 
 /// [1/s] What a real part of a pole has to exceed: its error, and its change to the other point with
 /// that of the entries of A.

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <Eigen/SVD>
+#include <Eigen/QR>
 
 #include "saltus/analysis/detail/least_squares.hpp"
 #include "saltus/analysis/detail/thresholds.hpp"
@@ -83,10 +83,10 @@ Fitted least_squares_from(TrimProblem& problem, const TrimPoint& first, const Tr
 TrimPoint with_newton(TrimProblem& problem, TrimPoint point, const TrimBounds& bounds,
                       const TrimScales& scales) {
   for (int i = 0; i < last_newton_steps; ++i) {
-    Eigen::BDCSVD<Eigen::MatrixXd> svd(scaled_jacobian(point, scales),
-                                       Eigen::ComputeThinU | Eigen::ComputeThinV);
-    svd.setThreshold(newton_rank);
-    const Eigen::VectorXd step = svd.solve(-scaled_residual(point, scales));
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> orthogonal;
+    orthogonal.setThreshold(newton_rank);
+    orthogonal.compute(scaled_jacobian(point, scales));
+    const Eigen::VectorXd step = orthogonal.solve(-scaled_residual(point, scales));  // the shortest
     auto better = problem.tried(bounds.clipped(point.values + step.cwiseProduct(scales.unknowns)));
     if (!better ||
         !(scaled_residual(*better, scales).norm() < scaled_residual(point, scales).norm()))

@@ -17,6 +17,15 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double positive = std::numeric_limits<double>::min();
 constexpr double below_one = 1.0 - std::numeric_limits<double>::epsilon();
 
+// What is below does not depend on the type of the parameters, and is compiled once, in shelf.cpp.
+
+/// The place of a parameter in the list of all. Throws ModelError if it is not there.
+std::size_t known_place(const SceneParameters& all, const std::string& name);
+/// Throws ModelError for a value out of bounds.
+void require_in_range(const std::string& name, double least, double most, double value);
+[[noreturn]] void refuse_fraction(const std::string& name, double value);
+[[noreturn]] void refuse_together(const std::string& scene, const char* expected);
+
 /// One parameter of a scene, and the range of its meaningful values.
 template <class Parameters>
 struct Member {
@@ -29,33 +38,16 @@ struct Member {
   }
   /// Throws ModelError for a value out of bounds, or for a fraction if an integer is required.
   void set(Parameters& to, double value) const {
-    if (!(value >= least && value <= most) || !std::isfinite(value))
-      throw ModelError(
-          text("parameter '", name, "': expected ", least, " to ", most, ", found ", value));
+    require_in_range(name, least, most, value);
     std::visit(
         [&](auto member) {
           using Number = std::remove_reference_t<decltype(to.*member)>;
           to.*member = static_cast<Number>(value);
-          if (static_cast<double>(to.*member) != value)
-            throw ModelError(text("parameter '", name, "': expected an integer, found ", value));
+          if (static_cast<double>(to.*member) != value) refuse_fraction(name, value);
         },
         at);
   }
 };
-
-template <class Parameters>
-void change(Parameters& all, const std::vector<Member<Parameters>>& members,
-            const SceneParameters& with) {
-  for (const auto& [name, value] : with) {
-    const auto found = std::ranges::find(members, name, &Member<Parameters>::name);
-    if (found == members.end()) {
-      std::vector<std::string> known;
-      for (const auto& member : members) known.push_back(member.name);
-      throw ModelError(text("unknown parameter '", name, "'", known_names(name, known)));
-    }
-    found->set(all, value);
-  }
-}
 
 /// A condition between parameters, without which the scene has no meaning.
 template <class Parameters>
@@ -71,15 +63,16 @@ ShelfEntry entry(std::string name, std::string title, Scene (*make)(const Parame
                  Condition<Parameters> condition = {}) {
   SceneParameters values;
   for (const auto& member : members) values.emplace_back(member.name, member.get(usual));
-  return {std::move(name),
+  return {name,  // not moved: an error of make_with says it
           std::move(title),
           [=] { return make(usual); },
           values,
           [=](const SceneParameters& with) {
             Parameters changed = usual;
-            change(changed, members, with);
+            for (const auto& [parameter, value] : with)
+              members[known_place(values, parameter)].set(changed, value);
             if (condition.holds != nullptr && !condition.holds(changed))
-              throw ModelError(text("scene '", name, "': expected ", condition.expected));
+              refuse_together(name, condition.expected);
             return make(changed);
           },
           quick};

@@ -2,15 +2,14 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
+#include "saltus/base/detail/eigenvalues.hpp"
 #include "saltus/simulation/linearize.hpp"
 
 namespace saltus {
 
 Eigen::VectorXcd Linearization::poles() const {
   if (A.rows() == 0) return {};
-  Eigen::VectorXcd poles = A.eigenvalues();
+  Eigen::VectorXcd poles = detail::eigenvalues(A);
   std::sort(poles.begin(), poles.end(), [](const auto& a, const auto& b) {
     return std::pair(a.real(), a.imag()) < std::pair(b.real(), b.imag());
   });

@@ -41,9 +41,9 @@ def test_where_nothing_is_known_it_says_so():
         ("bouncing-ball", {"g": math.nan}, "'g': expected"),
         ("bouncing-ball", {"g": "heavy"}, "expected numbers"),
         ("newtons-cradle", {"balls": 2.5}, "expected an integer"),
-        ("two-walls", {"v0": 0.0}, "v0 not 0"),
+        ("two-walls", {"v0": 0.0}, "scene 'two-walls': expected 0 < x0 < length, v0 not 0"),
         ("water-tanks", {"w": 0.3}, "v1 and v2 below w"),
-        ("stick-slip", {"fk": 2.0}, "fk < fs"),
+        ("stick-slip", {"fk": 2.0}, "scene 'stick-slip': expected fk < fs"),
     ],
 )
 def test_values_without_meaning(name, parameters, says):

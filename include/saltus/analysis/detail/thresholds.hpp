@@ -42,7 +42,7 @@ inline constexpr double close_to_bound = 1e-6;
 inline constexpr double roundings_of_term = 16.0;
 /// Newton steps at the end of a search: a simple root needs some three.
 inline constexpr int last_newton_steps = 20;
-/// [of the largest singular value] a smaller one is zero in a Newton step: it moves nothing.
+/// [of the largest pivot] a smaller one is zero in a Newton step: it moves nothing.
 inline constexpr double newton_rank = 1e-10;
 /// [of the size of a value] two searches that end at one point end closer than this.
 inline constexpr double same_point = 1e-6;

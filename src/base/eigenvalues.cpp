@@ -1,0 +1,9 @@
+#include "saltus/base/detail/eigenvalues.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace saltus::detail {
+
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) { return matrix.eigenvalues(); }
+
+}  // namespace saltus::detail
