@@ -4,92 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <unordered_map>
 #include <utility>
 
 #include "saltus/base/list.hpp"
 #include "saltus/simulation/detail/tangents.hpp"
 
 namespace saltus {
-
-Holds::Holds(Machine& machine, const GuardSet& guards, const SimulatorOptions& options, Flow& flow,
-             Transition& transition, Journal& journal, Present& present)
-    : machine_(&machine),
-      options_(&options),
-      flow_(&flow),
-      transition_(&transition),
-      journal_(&journal),
-      present_(&present),
-      states_(machine.plan().nx) {
-  std::iota(states_.begin(), states_.end(), Index{0});
-  add_guards(guards);
-  add_edges();
-  changed_.reserve(of_guards_.size() + of_edges_.size());
-}
-
-std::span<const Index> Holds::whole(const PlanLeaf& leaf) const {
-  const Index* first = states_.data() + leaf.x;
-  return {first, first + leaf.nx};
-}
-
-void Holds::add_guards(const GuardSet& guards) {
-  const Plan& plan = machine_->plan();
-  for (const Guard& guard : guards.all()) {
-    Hold& hold = of_guards_.emplace_back();
-    const GuardGroup& group = plan.guard(guard.group);
-    if (!group.is_crossing() || group.queued || !plan.crossing_of(group).has_effect()) continue;
-    const ZeroCrossing& crossing = plan.crossing_of(group);
-    const PlanLeaf& leaf = plan.leaf(group.leaf);
-    hold = {.monitor = ZenoMonitor(crossing.zeno_tolerance.value_or(options_->zeno_tolerance),
-                                   options_->rtol),
-            .leaf = group.leaf,
-            .source = guard.group,
-            .entry = guard.entry,
-            .on_zeno = crossing.on_zeno,
-            .groups = {guard.group},
-            .of_plan = whole(leaf)};
-    if (!crossing.holds.empty())
-      hold.of_plan = choose(leaf, nth(crossing.holds, guard.entry));
-    else if (crossing.touches && !steers(crossing, group.leaf))
-      hold.of_plan = choose(leaf, crossing.touches->of_guard(guard.entry));
-  }
-}
-
-std::span<const Index> Holds::choose(const PlanLeaf& leaf, const std::vector<int>& entries) {
-  std::vector<Index>& chosen = chosen_.emplace_back();
-  for (const int i : entries) chosen.push_back(leaf.x + i);
-  return chosen;
-}
-
-/// Whether an effect writes a discrete state or a mode that derivatives read: it acts on the flow
-/// of all states of its leaf (4.4).
-bool Holds::steers(const ZeroCrossing& crossing, int leaf) const {
-  const bool mode = crossing.end_mode || crossing.touches->writes_mode;
-  return (mode && transition_->derivatives_read(Reads::mode, leaf)) ||
-         (crossing.touches->writes_discrete_state &&
-          transition_->derivatives_read(Reads::discrete_state, leaf));
-}
-
-void Holds::add_edges() {
-  const Plan& plan = machine_->plan();
-  std::unordered_map<int, int> group_of;  // of each located node
-  for (std::size_t i = 0; i < plan.guards.size(); ++i)
-    if (!plan.guards[i].is_crossing()) group_of.emplace(plan.guards[i].index, static_cast<int>(i));
-  for (std::size_t e = 0; e < plan.edges.size(); ++e) {
-    const EdgeReset& reset = plan.reset_of(plan.edges[e]);
-    std::vector<int> groups;
-    for (const int node : plan.edges[e].relations) groups.push_back(group_of.at(node));
-    of_edges_.push_back(
-        {.monitor =
-             ZenoMonitor(reset.zeno_tolerance.value_or(options_->zeno_tolerance), options_->rtol),
-         .leaf = plan.edges[e].leaf,
-         .source = journal_->source_of(Cause::edge, static_cast<int>(e)),
-         .on_zeno = reset.on_zeno,
-         .groups = std::move(groups),
-         .of_plan = whole(plan.leaf(plan.edges[e].leaf))});
-  }
-}
 
 void Holds::begin() {
   for (auto* holds : {&of_guards_, &of_edges_}) {

@@ -124,7 +124,7 @@ double IslandRuns::run_in_turn(double t_end) {
 
 /// Runs one island on the calling thread.
 Status IslandRuns::run_one(std::size_t k, double t_end) {
-  Run& run = *all_[k].run;
+  RunBySteps& run = *all_[k].run;
   progress_.start(run);
   const Status status = run.advance_to(t_end);
   progress_.stop(), progress_.add(run, time_);
@@ -143,7 +143,7 @@ void IslandRuns::take_end(std::size_t k, Status status, double& t_end) {
 
 /// Runs an island from the start of the run through its earlier pieces to t_end.
 void IslandRuns::run_again(std::size_t k, double t_end) {
-  Run& run = *all_[k].run;
+  RunBySteps& run = *all_[k].run;
   again_ = true;  // it cannot be interrupted: it has run so far before
   run.initialize(all_[k].begin);
   for (const double end : ends_) run.advance_to(std::min(end, t_end));

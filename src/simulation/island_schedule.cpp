@@ -15,7 +15,7 @@ IslandSchedule::End IslandSchedule::run(double t_end, double latest, std::size_t
   require_apart(t_end);
   End end{std::min(t_end, latest)};
   queue_.clear(), next_.assign(runs_.size(), std::numeric_limits<double>::infinity());
-  for (Run* run : runs_) run->begin_piece(t_end);
+  for (RunBySteps* run : runs_) run->begin_piece(t_end);
   window_.resize(runs_.size());
   std::iota(window_.begin(), window_.end(), std::size_t{0});
   close_window(end);
@@ -24,7 +24,7 @@ IslandSchedule::End IslandSchedule::run(double t_end, double latest, std::size_t
     close_window(end);
     if (end.stopped || !asks()) continue;
     end.stopped = true;
-    for (const Run* run : runs_) time_ = std::max(time_, run->time());
+    for (const RunBySteps* run : runs_) time_ = std::max(time_, run->time());
     end.time = std::min(end.time, time_);
   }
   finish(end);
@@ -77,7 +77,7 @@ void IslandSchedule::close_window(End& end) {
 
 /// An island that ends before the others ends the run; of several the first.
 void IslandSchedule::note_end(std::size_t k, End& end) {
-  const Run& run = *runs_[k];
+  const RunBySteps& run = *runs_[k];
   if (!run.over() || run.time() > end.time) return;
   if (!end.island || run.time() < end.time || k < *end.island) end.island = k;
   end.time = run.time();
@@ -85,7 +85,7 @@ void IslandSchedule::note_end(std::size_t k, End& end) {
 
 bool IslandSchedule::has_passed(double t) const {
   return std::ranges::any_of(runs_,
-                             [&](const Run* run) { return run->time() > t + Calendar::slack(t); });
+                             [&](const RunBySteps* run) { return run->time() > t + Calendar::slack(t); });
 }
 
 /// All islands end at the end of the run. A taken step that reaches beyond is cut.
@@ -97,7 +97,7 @@ void IslandSchedule::finish(End& end) {
   }
   end.passed = has_passed(end.time);
   if (end.passed) return;
-  for (Run* run : runs_) run->end_piece();
+  for (RunBySteps* run : runs_) run->end_piece();
 }
 
 // --- what waits for which island

@@ -49,7 +49,7 @@ IslandRuns::IslandRuns(std::shared_ptr<const Plan> plan, Islands islands, Simula
   all_.reserve(islands_.count());
   for (std::size_t k = 0; k < islands_.count(); ++k) add_island(k, options_, sources);
   if (islands_.are_wired()) {
-    std::vector<Run*> runs;
+    std::vector<RunBySteps*> runs;
     for (const Island& island : all_) runs.push_back(island.run.get());
     schedule_.emplace(*plan_, islands_, std::move(runs));
   }
@@ -73,7 +73,7 @@ SimulatorOptions IslandRuns::options_for(std::size_t k, const SimulatorOptions& 
 void IslandRuns::add_island(std::size_t k, const SimulatorOptions& options,
                             const std::vector<std::pair<std::string, int>>& sources) {
   const std::shared_ptr<const Plan> part = plan_of_island(*plan_, islands_, k);
-  Island island{.run = std::make_unique<Run>(part, options_for(k, options)),
+  Island island{.run = std::make_unique<RunBySteps>(part, options_for(k, options)),
                 .terminal = has_terminal_guard(*part)};
   island.layout = std::make_shared<const Layout>(IslandTangents::layout_of(*part));
   std::vector<int> numbers;

@@ -1,7 +1,6 @@
-// Run: step by step, for an island that gets events of other islands. A step is taken before it is
-// known what arrives in it, with the length that the method chooses. What arrives inside cuts it by
-// its dense output, as a root does. So the bits of the island depend on what arrives, and not on
-// when that became known.
+// RunBySteps: steps that count once it is known what arrives in them.
+#include "saltus/simulation/detail/run_by_steps.hpp"
+
 #include <algorithm>
 
 #include "saltus/base/detail/forced_unwind.hpp"
@@ -9,7 +8,7 @@
 
 namespace saltus {
 
-void Run::begin_piece(double t_end) {
+void RunBySteps::begin_piece(double t_end) {
   require_ready(t_end);
   endings_.go_on(std::chrono::steady_clock::now());
   t_end_ = t_end, taken_.reset();
@@ -22,20 +21,20 @@ void Run::begin_piece(double t_end) {
   });
 }
 
-double Run::next() const noexcept {
+double RunBySteps::next() const noexcept {
   if (!taken_ || over()) return std::numeric_limits<double>::infinity();
-  return taken_->failed ? time_ : std::min(taken_->to, instant_.next_outside());
+  return taken_->failed ? time_ : std::min(taken_->to, instant_.queues().next_outside());
 }
 
 /// Takes the next step, if there is one. One that fails may have failed beyond what arrives.
-Status Run::take_step() {
+Status RunBySteps::take_step() {
   taken_.reset();
   if (time_ >= t_end_) return Status::reached_end;
   if (const auto status = over_steps(t_end_)) return *status;
   depart(time_);
   Taken step{.to = time_, .reason = StopReason::step, .t_stop = next_stop(t_end_)};
   try {
-    const double due = instant_.next_outside();
+    const double due = instant_.queues().next_outside();
     step.reason = integration_.advance_recallably(step.to, step.t_stop, due);
   } catch (const Interruption&) {
     throw;
@@ -47,7 +46,7 @@ Status Run::take_step() {
   return Status::reached_end;
 }
 
-void Run::run_window(double safe, double latest) {
+void RunBySteps::run_window(double safe, double latest) {
   const auto start = std::chrono::steady_clock::now();
   while (next() <= latest && Calendar::is_clearly_before(next(), safe)) commit(safe);
   results_.statistics.wall_time +=
@@ -56,12 +55,12 @@ void Run::run_window(double safe, double latest) {
 
 /// The step that was taken counts, and so does the instant at its end, if there is one. Takes the
 /// next step.
-void Run::commit(double safe) {
+void RunBySteps::commit(double safe) {
   guarded([&] { return commit_step(safe); });
 }
 
-Status Run::commit_step(double safe) {
-  const double from = time_, due = instant_.next_outside();
+Status RunBySteps::commit_step(double safe) {
+  const double from = time_, due = instant_.queues().next_outside();
   double to = taken_->to;
   const StopReason reason = taken_->failed
                                 ? step_again(to, std::min({taken_->t_stop, due, safe, t_end_}))
@@ -72,13 +71,13 @@ Status Run::commit_step(double safe) {
 }
 
 /// Takes the step anew, no further than to t_stop [s]: nothing arrives before.
-StopReason Run::step_again(double& to, double t_stop) {
+StopReason RunBySteps::step_again(double& to, double t_stop) {
   integration_.take_state(time_);
   integration_.restart(time_, {});
   return integration_.advance(to, t_stop);
 }
 
-void Run::cut_at(double t) {
+void RunBySteps::cut_at(double t) {
   t_end_ = t;
   if (taken_ && !taken_->failed && !(time_ < t))
     integration_.cut(taken_->to, taken_->reason, time_);

@@ -18,14 +18,6 @@ void Run::require_ready(double t_end) const {
   }
 }
 
-/// The step is taken back: the run ends at its begin, the last state before the pole.
-void Run::fail_at_pole(double from) {
-  const double to = std::exchange(time_, from);
-  machine_.x = endings_.departed_from();
-  accepted_.place = Place::machine;
-  throw endings_.pole_error(from, to);
-}
-
 /// Ends the run with an error. Called in a handler: the present exception is the cause.
 void Run::fail(std::string message) {
   results_.status = Status::failed;
@@ -49,14 +41,6 @@ void Run::take_accepted() {
     detail::pass_end_of_thread();
     machine_.x = integration_.state();
   }
-}
-
-Status Run::end(Endings::Ending ending) {
-  over_ = true;
-  results_.status = ending.status;
-  results_.message = std::move(ending.message);
-  if (!ending.block.empty()) results_.block = std::move(ending.block);
-  return ending.status;
 }
 
 }  // namespace saltus

@@ -3,25 +3,6 @@
 
 namespace saltus {
 
-/// Keeps the one or two polynomials of the step from `from` to now for dense output.
-void Run::keep_step(double from) {
-  if (!integration_.started())
-    return results_.trajectory.add(from, time_, 0, machine_, instant_.contacts(), machine_.x,
-                                   [](double, double*) {});
-  const auto add = [&](double begin, double end, const Eigen::VectorXd& x_end) {
-    results_.trajectory.add(begin, end, integration_.degree(), machine_, instant_.contacts(), x_end,
-                            [this](double t, double* x) { integration_.interpolate(t, x); });
-  };
-  const double joint = integration_.joint(from);
-  if (from < joint && joint < time_) {
-    const Eigen::VectorXd& middle = integration_.at(joint);
-    add(from, joint, middle);
-    results_.trajectory.depart(middle);
-    from = joint;
-  }
-  add(from, time_, integration_.state());
-}
-
 /// Completes the results: context, last row and counts.
 void Run::finish() {
   const bool at_instant =
@@ -38,19 +19,12 @@ void Run::finish() {
   s.events_by_name = instant_.journal().counts();
 }
 
-void Run::count_calls() {
-  Statistics& s = results_.statistics;
-  s.right_hand_side_calls = machine_.rhs_calls;
-  s.guard_calls = machine_.guard_calls;
-  s.jacobian_calls = machine_.jacobian_calls;
-}
-
 Context Run::context() const {
   if (!begun_) return begin_;
   if (results_.status == Status::failed && accepted_.place == Place::start) return begin_;
   const bool settled = results_.status != Status::failed || accepted_.settled;
   return machine_.save(begin_, time_, std::make_shared<const Continuation>(instant_.save()),
-                       settled, instant_.pending());
+                       settled, instant_.queues().pending());
 }
 
 std::string Run::describe() const {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <new>
-#include <tuple>
 
 #include "saltus/simulation/detail/tangents.hpp"
 
@@ -70,13 +69,6 @@ At Transition::seen(int leaf, Index entry, double t) {
   return at;
 }
 
-bool Transition::changed_in_pass(int leaf) const {
-  const PlanLeaf& of = machine_->plan().leaf(leaf);
-  return modes_next_[leaf] != machine_->modes[leaf] ||
-         !std::equal(z_next_.data() + of.z, z_next_.data() + of.z + of.nz,
-                     machine_->z.data() + of.z);
-}
-
 Inputs Transition::inputs_before(int leaf) {
   minus_ = {x_minus_.data(), z_minus_.data(), machine_->p.data(), y_minus_.data()};
   const List<Place>& places = machine_->plan().leaf(leaf).input_places;
@@ -136,13 +128,6 @@ void Transition::count(int leaf, Wrote wrote) {
   restarts_ = restarts_ || wrote.x || (wrote.z && derivatives_read(Reads::discrete_state, leaf));
 }
 
-int Transition::effects(const GuardGroup& guard) const {
-  if (!wrote_any_) return 0;
-  int sum = 0;
-  for (const int leaf : guard.leaves) sum += effects_[leaf];
-  return sum;
-}
-
 bool Transition::run(const Call& call) {
   const PlanLeaf& of = machine_->plan().leaf(call.leaf);
   int& to = modes_next_[call.leaf];
@@ -199,19 +184,6 @@ void Transition::write(int leaf, const FrozenValues& values) {
   count(leaf, {values.wrote_continuous, values.wrote_discrete});
 }
 
-/// A held output that depends on z only is found by its value. An output that also reads x or t is
-/// not.
-bool Transition::derivatives_read(Reads kind, int number) const {
-  const Plan& plan = machine_->plan();
-  const PlanLeaf& of = plan.leaf(number);
-  const auto shows = [&](int i) {
-    const Node& node = plan.node(i);
-    return node.leaf == number && !node.relation && has(plan.output_of(node).reads, kind);
-  };
-  return (of.nx > 0 && has(of.declared().continuous.reads, kind)) ||
-         std::ranges::any_of(plan.needs.derivatives, shows);
-}
-
 bool Transition::commit() {
   if (tangents_ != nullptr) tangents_->commit();
   copy(x_next_, machine_->x), copy(z_next_, machine_->z);
@@ -239,27 +211,6 @@ void Transition::guards_after(std::span<const int> groups, double t, double* val
 void Transition::swap_with_before() {
   if (entered_) std::swap(machine_->modes, modes_before_);
   std::swap_ranges(y_minus_.begin(), y_minus_.end(), machine_->y.begin());
-}
-
-bool Transition::changed(const Place& place) const {
-  if (place.space == Space::p) return false;
-  const auto& [before, now] = place.space == Space::x   ? std::tie(x_minus_, machine_->x)
-                              : place.space == Space::z ? std::tie(z_minus_, machine_->z)
-                                                        : std::tie(y_minus_, machine_->y);
-  return before.segment(place.offset, place.size) != now.segment(place.offset, place.size);
-}
-
-bool Transition::held_outputs_changed() const {
-  const Plan& plan = machine_->plan();
-  return std::ranges::any_of(plan.needs.instants, [&](int i) {
-    return plan.node(i).rate == Rate::held && changed(plan.node(i).place);
-  });
-}
-
-bool Transition::restarts() const {
-  const Plan& plan = machine_->plan();
-  return restarts_ || std::ranges::any_of(plan.needs.restarting,
-                                          [&](int node) { return changed(plan.node(node).place); });
 }
 
 }  // namespace saltus

@@ -234,8 +234,8 @@ TEST_CASE("a scene without queued zero crossings has no queue and no stop for it
   const SimulatorOptions options;
   Results none;
   const Instant instant(machine, guards, options, none);
-  CHECK_FALSE(instant.may_wait());
-  CHECK(instant.next_due() == nullptr);  // the calendar looks at no queue
+  CHECK_FALSE(instant.queues().may_wait());
+  CHECK(instant.queues().next_due() == nullptr);  // the calendar looks at no queue
 }
 
 TEST_CASE("a chain of executions may be as long as a chain of plain resets", "[laws][queue]") {

@@ -15,7 +15,7 @@
 #include "saltus/simulation/detail/island_merger.hpp"
 #include "saltus/simulation/detail/island_progress.hpp"
 #include "saltus/simulation/detail/island_schedule.hpp"
-#include "saltus/simulation/detail/run.hpp"
+#include "saltus/simulation/detail/run_by_steps.hpp"
 
 namespace saltus {
 
@@ -43,7 +43,7 @@ class IslandRuns {
 
  private:
   struct Island {
-    std::unique_ptr<Run> run;
+    std::unique_ptr<RunBySteps> run;
     std::shared_ptr<const Layout> layout = {};
     Context begin = {};
     bool terminal = false;  ///< it has a guard that ends the run

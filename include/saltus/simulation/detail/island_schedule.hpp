@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "saltus/plan/islands.hpp"
-#include "saltus/simulation/detail/run.hpp"
+#include "saltus/simulation/detail/run_by_steps.hpp"
 
 namespace saltus {
 
@@ -22,7 +22,7 @@ namespace saltus {
 class IslandSchedule {
  public:
   /// The runs are those of the islands, in order.
-  IslandSchedule(const Plan& plan, const Islands& islands, std::vector<Run*> runs);
+  IslandSchedule(const Plan& plan, const Islands& islands, std::vector<RunBySteps*> runs);
   IslandSchedule(const IslandSchedule&) = delete;
 
   /// A run begins, with the deliveries that wait in a context; the runs of the islands are
@@ -49,7 +49,7 @@ class IslandSchedule {
   double time() const noexcept { return time_; }
 
  private:
-  using Entry = std::pair<double, std::size_t>;  // [s] Run::next of an island
+  using Entry = std::pair<double, std::size_t>;  // [s] RunBySteps::next of an island
 
   void find_sources(std::size_t k);
   void find_ends(std::size_t number);
@@ -67,7 +67,7 @@ class IslandSchedule {
 
   const Plan* plan_;
   const Islands* islands_;
-  std::vector<Run*> runs_;
+  std::vector<RunBySteps*> runs_;
   List<int> numbers_;                // of each leaf in its island
   std::vector<List<int>> sources_;   // of each island: the number in the plan of each source
   List<char> inside_, outside_;      // of each batch: it has targets in its own island, in others

@@ -53,10 +53,7 @@ class GuardSearch : private PacedSearch {
     scan_points_ = points_ == nullptr ? part.scan_points : 0;
     few_.clear(), may_go_back_ = false;
     if (outdated()) look_up_guards();
-    if (part.guards != nullptr)
-      std::copy_n(part.guards, high_.size(), high_.data());
-    else if (!std::exchange(looked_, false))
-      look(part.to, part.end, interpolate, high_);
+    look_at_end(part, interpolate);
     const bool timed = follow_time();
     passes_ = scans() && part.points == nullptr && !timed;
     const double length = part.to - part.from;
@@ -104,6 +101,15 @@ class GuardSearch : private PacedSearch {
   double offset() const noexcept { return root_; }
 
  private:
+  /// Puts the guards at the end of the part into high_.
+  template <class Interpolate>
+  [[gnu::always_inline]] void look_at_end(const Part& part, const Interpolate& interpolate) {
+    if (part.guards != nullptr)
+      std::copy_n(part.guards, high_.size(), high_.data());
+    else if (!std::exchange(looked_, false))
+      look(part.to, part.end, interpolate, high_);
+  }
+
   /// `find` piece by piece; high_ has the guards at the end. It is a function of its own because
   /// most steps need only the rest of `find`.
   template <class Interpolate>
@@ -118,7 +124,7 @@ class GuardSearch : private PacedSearch {
     double next = from;
     begin_pieces(from, length, interpolate);
     if (passes_) passes_ = !follow_time();  // it may have been found
-    if (earlier_at_ == never && scans() && some_beyond()) {
+    if (is_early_look_due()) {
       const double early = from + thresholds::first_look * next_piece(length);
       look(early, nullptr, interpolate, high_);
       if (find_in(from, early, nullptr, interpolate)) return true;
@@ -145,6 +151,8 @@ class GuardSearch : private PacedSearch {
     skipped_ = 0;
   }
 
+  /// Whether a guard may come back from its firing side soon after a restart.
+  bool is_early_look_due() const { return earlier_at_ == never && scans() && some_beyond(); }
   /// Whether some guard with one direction is on its firing side.
   bool some_beyond() const {
     return std::ranges::any_of(located_->slots,
