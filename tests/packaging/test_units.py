@@ -53,6 +53,7 @@ ELSEWHERE = {
     "simulation/detail/instant_rows": "semantics/rows_count_test.cpp",
     "simulation/detail/integration": None,
     "simulation/detail/inputs_before": "unit/library_subsystems_test.cpp",
+    "simulation/detail/island_contexts": "laws/island_runs_test.cpp",
     "simulation/detail/island_merger": "laws/island_runs_test.cpp",
     "simulation/detail/island_progress": "laws/island_runs_test.cpp",
     "simulation/detail/island_runs": "laws/island_runs_test.cpp",
