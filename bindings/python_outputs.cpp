@@ -97,32 +97,47 @@ py::object PythonLeaf::call_with(int k, const std::vector<Shape>& shapes,
       0);
 }
 
+namespace {
+
+/// The shapes that are tried: an input of unknown shape has `width` entries, or is one number.
+std::vector<Shape> with_width(std::vector<Shape> shapes, Index width) {
+  for (Shape& shape : shapes)
+    if (shape.size == 0) shape = width == 0 ? Shape::scalar() : Shape::of(width);
+  return shapes;
+}
+
+/// Calls a function with the warnings of NumPy off, by numpy.errstate.
+template <class Call>
+py::object quietly(const py::object& errstate, const Call& call) {
+  py::dict ignored;
+  ignored["all"] = "ignore";
+  const py::object quiet = ask_with(errstate, py::tuple(), ignored);  // it is entered once only
+  ask(quiet.attr("__enter__"));
+  py::object result;
+  try {
+    result = call();
+  } catch (...) {
+    ask(quiet.attr("__exit__"), py::none(), py::none(), py::none());
+    throw;
+  }
+  ask(quiet.attr("__exit__"), py::none(), py::none(), py::none());
+  return result;
+}
+
+}  // namespace
+
 /// The result of the first call that succeeds: a zero may be a divisor, a matrix may be inverted, and
 /// an input of unknown width may be indexed.
 std::optional<py::array> PythonLeaf::sample(int k, std::vector<Shape> shapes,
                                             std::span<const Index> widths) const {
   std::exception_ptr first;  // what the first call raised
   const py::object errstate = py::module_::import("numpy").attr("errstate");
-  py::dict ignored;
-  ignored["all"] = "ignore";
-  std::vector<Shape> tried = shapes;
   for (const Index width : widths) {
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-      if (shapes[i].size == 0) tried[i] = width == 0 ? Shape::scalar() : Shape::of(width);
-    }
+    const std::vector<Shape> tried = with_width(shapes, width);
     for (const Probe probe : {Probe::zeros, Probe::ones, Probe::identities}) {
       try {
-        const py::object quiet =
-            ask_with(errstate, py::tuple(), ignored);  // it is entered once only
-        ask(quiet.attr("__enter__"));
-        py::object result;
-        try {
-          result = call_with(k, tried, values_of(tried, probe));
-        } catch (...) {
-          ask(quiet.attr("__exit__"), py::none(), py::none(), py::none());
-          throw;
-        }
-        ask(quiet.attr("__exit__"), py::none(), py::none(), py::none());
+        const py::object result =
+            quietly(errstate, [&] { return call_with(k, tried, values_of(tried, probe)); });
         if (py::array array = py::array::ensure(result); array && !result.is_none()) return array;
         PyErr_Clear();
       } catch (py::error_already_set& error) {

@@ -71,35 +71,63 @@ class BoundedDescent {
     return largest;
   }
 
+  /// A step that is tried, and the cost at its end.
+  struct Trial {
+    VectorXd x;
+    bool small;        // beside the size of the values
+    double predicted;  // the reduction of the cost by the linear problem
+    double cost = 0.0, reduced = 0.0;
+    double enough = 0.0;  // a smaller reduction is none
+    double ratio() const { return reduced / predicted; }
+  };
+
   /// A step to a lower cost; the reason if there is none, or if it was the last.
   std::optional<LeastSquaresEnd> step() {
     while (true) {
-      const VectorXd x = (found_.x + within_bounds()).cwiseMax(lower_).cwiseMin(upper_);
-      const VectorXd s = x - found_.x;
-      const bool small = length_of(s) <= limits_.step * length_of(found_.x);
-      const double predicted = -gradient_.dot(s) - 0.5 * (jacobian_ * s).squaredNorm();
-      if (!(predicted > 0.0)) {
-        if (small || damping_ > most_damping) return LeastSquaresEnd::step;
-        harder();
-        continue;
+      Trial trial = proposed();
+      if (!(trial.predicted > 0.0)) {
+        if (trial.small || damping_ > most_damping) return LeastSquaresEnd::step;
+      } else {
+        if (found_.evaluations >= limits_.evaluations) return LeastSquaresEnd::evaluations;
+        evaluate(trial);
+        if (trial.ratio() > least_reduction) return taken(trial);
+        if (const auto end = refused(trial)) return end;
       }
-      if (found_.evaluations >= limits_.evaluations) return LeastSquaresEnd::evaluations;
-      const auto cost = evaluated(x);
-      const double reduced = cost ? found_.cost - *cost : -std::numeric_limits<double>::infinity();
-      const double ratio = reduced / predicted;
-      const double enough = limits_.cost * found_.cost;
-      if (!(ratio > least_reduction)) {
-        if (predicted <= enough && std::abs(reduced) <= enough) return LeastSquaresEnd::cost;
-        if (small) return LeastSquaresEnd::step;
-        harder();
-        continue;
-      }
-      found_.x = x, found_.cost = *cost;
-      easier(ratio);
-      if (reduced <= enough && ratio > 0.25) return LeastSquaresEnd::cost;
-      if (small) return LeastSquaresEnd::step;
-      return {};
+      harder();
     }
+  }
+
+  Trial proposed() const {
+    const VectorXd x = (found_.x + within_bounds()).cwiseMax(lower_).cwiseMin(upper_);
+    const VectorXd s = x - found_.x;
+    return {.x = x,
+            .small = length_of(s) <= limits_.step * length_of(found_.x),
+            .predicted = -gradient_.dot(s) - 0.5 * (jacobian_ * s).squaredNorm()};
+  }
+
+  /// Where the problem has no cost, nothing is reduced.
+  void evaluate(Trial& trial) {
+    const auto cost = evaluated(trial.x);
+    trial.cost = cost.value_or(std::numeric_limits<double>::infinity());
+    trial.reduced = cost ? found_.cost - *cost : -std::numeric_limits<double>::infinity();
+    trial.enough = limits_.cost * found_.cost;
+  }
+
+  /// Why the search ends at a step that reduces too little, if it does.
+  static std::optional<LeastSquaresEnd> refused(const Trial& trial) {
+    if (trial.predicted <= trial.enough && std::abs(trial.reduced) <= trial.enough)
+      return LeastSquaresEnd::cost;
+    if (trial.small) return LeastSquaresEnd::step;
+    return {};
+  }
+
+  /// Takes a step, and says why it is the last, if it is.
+  std::optional<LeastSquaresEnd> taken(const Trial& trial) {
+    found_.x = trial.x, found_.cost = trial.cost;
+    easier(trial.ratio());
+    if (trial.reduced <= trial.enough && trial.ratio() > 0.25) return LeastSquaresEnd::cost;
+    if (trial.small) return LeastSquaresEnd::step;
+    return {};
   }
 
   double length_of(const VectorXd& x) const { return scale_.cwiseProduct(x).norm(); }

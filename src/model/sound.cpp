@@ -51,6 +51,26 @@ void require_sound(const Continuation::Firings& firings) {
           "times of firings that are not from late to early");
 }
 
+void require_sound(const Continuation::Leaving& leaving, std::size_t guards) {
+  require(leaving.guard >= 0 && static_cast<std::size_t>(leaving.guard) < guards,
+          text("guard ", leaving.guard, " leaves zero, of ", guards));
+  require(std::isfinite(leaving.armed_at) && std::isfinite(leaving.clear_at),
+          text("guard ", leaving.guard, " leaves zero from t = ", leaving.armed_at, " s to ",
+               leaving.clear_at, " s"));
+}
+
+void require_sound(const Continuation::Contact& contact, std::size_t guards) {
+  require(contact.guard >= 0 && static_cast<std::size_t>(contact.guard) < guards,
+          text("a contact of guard ", contact.guard, ", of ", guards));
+  require(contact.look_ahead >= 0.0 && std::isfinite(contact.look_ahead),
+          text("a contact with look ahead ", contact.look_ahead));
+}
+
+void require_count(std::int64_t count) {
+  require(count >= 0 && count <= std::numeric_limits<std::int64_t>::max() / 2,
+          text("a count of ", count));
+}
+
 std::string counts(const Layout::Leaf& leaf) {
   return text(leaf.nx, " continuous and ", leaf.nz, " discrete states, ", leaf.np, " parameters");
 }
@@ -106,23 +126,10 @@ void require_sound(const Continuation& c) {
     require(truth == 0.0 || truth == 1.0, text("a relation that is ", truth));
   for (const Continuation::Guard& guard : c.guards) require_sound(guard);
   for (const Continuation::Firings& firings : c.firings) require_sound(firings);
-  for (const Continuation::Leaving& guard : c.leaving) {
-    require(guard.guard >= 0 && static_cast<std::size_t>(guard.guard) < c.guards.size(),
-            text("guard ", guard.guard, " leaves zero, of ", c.guards.size()));
-    require(std::isfinite(guard.armed_at) && std::isfinite(guard.clear_at),
-            text("guard ", guard.guard, " leaves zero from t = ", guard.armed_at, " s to ",
-                 guard.clear_at, " s"));
-  }
-  for (const Continuation::Contact& contact : c.contacts) {
-    require(contact.guard >= 0 && static_cast<std::size_t>(contact.guard) < c.guards.size(),
-            text("a contact of guard ", contact.guard, ", of ", c.guards.size()));
-    require(contact.look_ahead >= 0.0 && std::isfinite(contact.look_ahead),
-            text("a contact with look ahead ", contact.look_ahead));
-  }
+  for (const Continuation::Leaving& leaving : c.leaving) require_sound(leaving, c.guards.size());
+  for (const Continuation::Contact& contact : c.contacts) require_sound(contact, c.guards.size());
   for (const int edge : c.edges) require(edge == 0 || edge == 1, text("an edge that is ", edge));
-  for (const std::int64_t count : c.counts)
-    require(count >= 0 && count <= std::numeric_limits<std::int64_t>::max() / 2,
-            text("a count of ", count));
+  for (const std::int64_t count : c.counts) require_count(count);
   for (const Continuation& island : c.islands) {
     require(island.islands.empty(), "an island with islands");
     require_sound(island);

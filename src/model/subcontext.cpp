@@ -39,14 +39,32 @@ Index last_parameter(const Layout& whole, const Layout::Range& range) {
   return first + count;
 }
 
+/// The systems within a part, the part itself first, with the numbers that its leaves have in it.
+std::vector<Layout::Range> systems_within(const Layout& whole, const Layout::Range& range) {
+  std::vector<Layout::Range> systems;
+  bool inside = false;  // a system comes before the systems in it
+  for (Layout::Range inner : whole.systems) {
+    inside = inside || inner.id == range.id;
+    if (!inside || inner.first < range.first || inner.last > range.last) continue;
+    inner.first -= range.first, inner.last -= range.first;
+    systems.push_back(std::move(inner));
+  }
+  return systems;
+}
+
+/// The beginning of the paths of the leaves that a part does not have; empty for the whole, and for a
+/// leaf.
+std::string prefix_of(const Layout& whole, const Layout::Range& range) {
+  const bool leaf = range.last - range.first == 1 && whole.leaves[range.first].path == range.path;
+  return leaf || whole.systems.front().id == range.id ? "" : range.path + ".";
+}
+
 }  // namespace
 
 std::shared_ptr<const Layout> part_layout(const Layout& whole, const Layout::Range& range) {
   auto part = std::make_shared<Layout>();
   const Layout::Leaf origin = range.first < range.last ? whole.leaves[range.first] : Layout::Leaf{};
-  const bool whole_or_leaf = whole.systems.front().id == range.id ||
-                             (range.last - range.first == 1 && origin.path == range.path);
-  const std::string prefix = whole_or_leaf ? "" : range.path + ".";
+  const std::string prefix = prefix_of(whole, range);
   for (std::size_t i = range.first; i < range.last; ++i) {
     Layout::Leaf leaf = whole.leaves[i];
     leaf.x -= origin.x, leaf.z -= origin.z, leaf.p -= origin.p;
@@ -55,13 +73,7 @@ std::shared_ptr<const Layout> part_layout(const Layout& whole, const Layout::Ran
     part->leaves.push_back(std::move(leaf));
   }
   part->computed = part_of(whole.computed, origin.p, last_parameter(whole, range));
-  bool inside = false;  // a system comes before the systems in it
-  for (Layout::Range inner : whole.systems) {
-    inside = inside || inner.id == range.id;
-    if (!inside || inner.first < range.first || inner.last > range.last) continue;
-    inner.first -= range.first, inner.last -= range.first;
-    part->systems.push_back(std::move(inner));
-  }
+  part->systems = systems_within(whole, range);
   return part;
 }
 

@@ -54,6 +54,21 @@ void describe_controls(std::string& out, const Plan& plan) {
   }
 }
 
+void describe_guards(std::string& out, const Plan& plan) {
+  out += plan.guards.empty() ? "no guards: no root-finding\n"
+                             : text("guards: ", plan.guard_slots, "\n");
+  for (const GuardGroup& guard : plan.guards) describe_guard(out, plan, guard);
+}
+
+/// What happens at instants beside the guards.
+void describe_events(std::string& out, const Plan& plan) {
+  if (!plan.edges.empty()) out += text("resets that follow an edge: ", plan.edges.size(), "\n");
+  if (!plan.schedule.empty()) out += text("time events: ", plan.schedule.size(), "\n");
+  if (plan.event_wires.any())
+    out += text("event wires: ", plan.event_wires.declared.size(), ", in ",
+                plan.event_wires.batches.size(), " batches of one event and one delay\n");
+}
+
 /// The nodes of which `is` holds.
 template <class Is>
 std::vector<int> nodes_that(const Plan& plan, const Is& is) {
@@ -90,14 +105,9 @@ std::string Plan::describe() const {
   describe_list(out, *this, "computed for recorded rows", needs.taps);
   if (!histories.empty()) describe_list(out, *this, "computed for histories", needs.histories);
   describe_list(out, *this, "dropped, nothing reads them", dropped);
-  out += guards.empty() ? "no guards: no root-finding\n" : text("guards: ", guard_slots, "\n");
-  for (const GuardGroup& guard : guards) describe_guard(out, *this, guard);
+  describe_guards(out, *this);
   describe_controls(out, *this);
-  if (!edges.empty()) out += text("resets that follow an edge: ", edges.size(), "\n");
-  if (!schedule.empty()) out += text("time events: ", schedule.size(), "\n");
-  if (event_wires.any())
-    out += text("event wires: ", event_wires.declared.size(), ", in ", event_wires.batches.size(),
-                " batches of one event and one delay\n");
+  describe_events(out, *this);
   if (odes.empty()) out += "no continuous state: no solver\n";
   out += taps.empty() ? "nothing recorded: no recorder\n"
                       : text("recorded signals: ", taps.size(), "\n");

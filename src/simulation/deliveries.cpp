@@ -84,7 +84,7 @@ void Deliveries::fire(int source) {
       continue;
     }
     const std::int64_t number = queue_.add(present_->t + delay, batch);
-    if (Tangents* tangents = transition_->tangents()) tangents->wait(number);
+    if (Tangents* tangents = transition_->tangents()) tangents->waiting().wait(number);
     set_off_ = set_off_ || delivered_;
   }
 }
@@ -105,8 +105,8 @@ bool Deliveries::collect() {
     const std::int64_t number = queue_.waiting().begin()->first.second;
     fired_.push_back(queue_.take());
     if (Tangents* tangents = transition_->tangents())
-      tangents->take_delivery(number,
-                              detail::event_name(plan(), wires().batches[fired_.back()].source));
+      tangents->waiting().take_delivery(
+          number, detail::event_name(plan(), wires().batches[fired_.back()].source));
   }
   for (const int number : fired_) {
     const EventWires::Batch& batch = wires().batches[number];

@@ -94,8 +94,8 @@ void Executions::schedule(int group, Index entry, int from) {
   PendingExecution scheduled = one.pending;
   scheduled.number = queue_.add(std::move(one));
   if (Tangents* tangents = transition_->tangents())
-    tangents->schedule(scheduled, call, crossing.delay ? &*crossing.delay : nullptr,
-                       transition_->seen_by(of.leaf, entry));
+    tangents->waiting().schedule(scheduled, call, crossing.delay ? &*crossing.delay : nullptr,
+                                 transition_->seen_by(of.leaf, entry));
 }
 
 double Executions::delay_of(int group, Index entry) const {
@@ -113,7 +113,7 @@ double Executions::delay_of(int group, Index entry) const {
 void Executions::cancel(int group, Index entry, int from) {
   const auto key = queue_.of_guard(group, static_cast<int>(entry));
   if (!key) return;
-  if (Tangents* tangents = transition_->tangents()) tangents->cancel(key->second);
+  if (Tangents* tangents = transition_->tangents()) tangents->waiting().cancel(key->second);
   note(EventKind::cancelled, queue_.take(*key), -from);
 }
 
@@ -128,14 +128,14 @@ bool Executions::collect() {
   if (transition_->tangents() != nullptr) look_at_ties(due_.priorities[first]);
   taken_ = queue_.take(due_.keys[first]);
   if (Tangents* tangents = transition_->tangents())
-    tangents->take_execution(taken_.pending.number, plan().guard(taken_.group).name);
+    tangents->waiting().take_execution(taken_.pending.number, plan().guard(taken_.group).name);
   present_->actions.push_back({taken_.pending.leaf, Cause::execution, taken_.group, -1, 0, false});
   return true;
 }
 
 /// Tells the derivatives which executions have the priority of the one that is taken.
 void Executions::look_at_ties(double priority) {
-  std::vector<Tangents::PriorityOf> tied;
+  std::vector<PriorityOf> tied;
   for (std::size_t i = 0; i < due_.keys.size(); ++i) {
     if (due_.priorities[i] != priority) continue;
     const WaitingExecution& one = queue_.waiting().at(due_.keys[i]);
@@ -143,7 +143,7 @@ void Executions::look_at_ties(double priority) {
     tied.push_back({crossing.priority ? &*crossing.priority : nullptr, one.pending.leaf,
                     one.pending.entry, plan().guard(one.group).name});
   }
-  if (tied.size() > 1) transition_->tangents()->tie(tied);
+  if (tied.size() > 1) transition_->tangents()->waiting().tie(tied);
 }
 
 void Executions::add_due(std::vector<DueNow>& all) {
@@ -214,7 +214,7 @@ Index Executions::execute(const Action& action) {
   const Transition::Call call{&crossing.reset_map, one.leaf, one.entry, present_->t,
                               plan().guard(action.index).name};
   if (one.frozen) {
-    if (Tangents* tangents = transition_->tangents()) tangents->write_frozen(one);
+    if (Tangents* tangents = transition_->tangents()) tangents->waiting().write_frozen(one);
     transition_->write(one.leaf, one.values);
   }
   if (!one.frozen && crossing.reset_map) transition_->run(call);

@@ -1,23 +1,31 @@
-// IslandRuns: the contexts of the islands, and the one context of all.
-#include <algorithm>
+#include "saltus/simulation/detail/island_contexts.hpp"
 
-#include "saltus/simulation/detail/island_runs.hpp"
+#include <algorithm>
+#include <utility>
+
+#include "saltus/simulation/detail/island_tangents.hpp"
 
 namespace saltus {
 
-/// The values of island k, to which its run fits.
-Context IslandRuns::part_of(const Context& whole, std::size_t k) const {
-  const Island& island = all_[k];
-  const Context blank = Context::zero(island.layout);
+void IslandContexts::add(const Plan& part) {
+  for (const PlanLeaf& leaf : part.leaves) {
+    if (std::ranges::any_of(leaf.declared().zero_crossings, &ZeroCrossing::is_queued))
+      queue_ = static_cast<int>(layouts_.size());
+  }
+  layouts_.push_back(std::make_shared<const Layout>(IslandTangents::layout_of(part)));
+}
+
+Context IslandContexts::part_of(const Context& whole, std::size_t k) const {
+  const Context blank = Context::zero(layouts_[k]);
   ContextValues v = blank.values();
   v.time = whole.time(), v.settled = whole.settled();
-  for (std::size_t i = 0; i < islands_.leaves[k].size(); ++i) {
-    const Layout::Leaf& to = island.layout->leaves[i];
-    const PlanLeaf& from = plan_->leaf(islands_.leaves[k][i]);
+  for (std::size_t i = 0; i < islands_->leaves[k].size(); ++i) {
+    const Layout::Leaf& to = layouts_[k]->leaves[i];
+    const PlanLeaf& from = plan_->leaf(islands_->leaves[k][i]);
     v.continuous_state.segment(to.x, to.nx) = whole.continuous_state().segment(from.x, from.nx);
     v.discrete_state.segment(to.z, to.nz) = whole.discrete_state().segment(from.z, from.nz);
     v.parameters.segment(to.p, to.np) = whole.parameters().segment(from.p, from.np);
-    v.modes[i] = nth(whole.modes(), islands_.leaves[k][i]);
+    v.modes[i] = nth(whole.modes(), islands_->leaves[k][i]);
   }
   if (const Continuation* all = whole.continuation()) {
     v.continuation = std::make_shared<const Continuation>(all->islands[k]);
@@ -28,9 +36,9 @@ Context IslandRuns::part_of(const Context& whole, std::size_t k) const {
 }
 
 /// What waits in island k, with its own numbers of the blocks; null if nothing does.
-std::shared_ptr<const PendingExecutions> IslandRuns::pending_of(const PendingExecutions& whole,
-                                                                std::size_t k) const {
-  const std::vector<int>& leaves = islands_.leaves[k];
+std::shared_ptr<const PendingExecutions> IslandContexts::pending_of(const PendingExecutions& whole,
+                                                                    std::size_t k) const {
+  const std::vector<int>& leaves = islands_->leaves[k];
   const auto number = [&](int leaf) {
     return static_cast<int>(std::ranges::lower_bound(leaves, leaf) - leaves.begin());
   };
@@ -41,8 +49,8 @@ std::shared_ptr<const PendingExecutions> IslandRuns::pending_of(const PendingExe
     for (PendingExecution& one : part.all) one.leaf = number(one.leaf);
   }
   for (PendingDelivery one : whole.deliveries) {
-    if (islands_.of_leaf[one.leaf] != static_cast<int>(k)) continue;
-    if (schedule_ && !schedule_->is_inside(one)) continue;
+    if (islands_->of_leaf[one.leaf] != static_cast<int>(k)) continue;
+    if (schedule_ != nullptr && !schedule_->is_inside(one)) continue;
     one.leaf = number(one.leaf);
     part.deliveries.push_back(one);
   }
@@ -52,9 +60,9 @@ std::shared_ptr<const PendingExecutions> IslandRuns::pending_of(const PendingExe
 
 /// Adds what waits in island k to what waits in the whole. Deliveries are in the order of their due
 /// times, and of the islands.
-void IslandRuns::add_pending(PendingExecutions& whole, const PendingExecutions& part,
-                             std::size_t k) const {
-  const std::vector<int>& leaves = islands_.leaves[k];
+void IslandContexts::add_pending(PendingExecutions& whole, const PendingExecutions& part,
+                                 std::size_t k) const {
+  const std::vector<int>& leaves = islands_->leaves[k];
   if (static_cast<int>(k) == queue_) {
     whole.all = part.all, whole.scheduled = part.scheduled, whole.draws = part.draws;
     for (PendingExecution& one : whole.all) one.leaf = nth(leaves, one.leaf);
@@ -65,62 +73,69 @@ void IslandRuns::add_pending(PendingExecutions& whole, const PendingExecutions& 
   }
 }
 
-/// Refuses the context of a run with one common step: it has the records of all guards in one list.
-/// Refuses deliveries of blocks in no island, too.
-void IslandRuns::require_fits(const Context& context) const {
-  if (context.pending() != nullptr) {
-    for (const PendingDelivery& one : context.pending()->deliveries)
-      if (islands_.of_leaf[one.leaf] < 0 || batch_of(*plan_, one) < 0)
+void IslandContexts::require_fits(const Context& whole) const {
+  if (whole.pending() != nullptr) {
+    for (const PendingDelivery& one : whole.pending()->deliveries)
+      if (islands_->of_leaf[one.leaf] < 0 || batch_of(*plan_, one) < 0)
         throw_no_such_wire(*plan_, one);
   }
-  const Continuation* all = context.continuation();
-  if (all == nullptr || all->islands.size() == all_.size()) return;
+  const Continuation* all = whole.continuation();
+  if (all == nullptr || all->islands.size() == layouts_.size()) return;
   throw ModelError(text(
       "the context ended a run with ",
       all->islands.empty() ? std::string("one common step") : text(all->islands.size(), " islands"),
-      ", this run has ", all_.size(),
+      ", this run has ", layouts_.size(),
       " islands; continue it with the options of that run, or take "
       "context.with_time(context.time()), which begins anew from its values"));
 }
 
-/// The values of all islands. A run that has not advanced has those with which it began.
-Context IslandRuns::context() const {
-  if (ends_.empty()) return begin_;
-  ContextValues v = begin_.values();
-  v.time = time_, v.settled = true;
+Context IslandContexts::whole_of(const Context& begin, double t,
+                                 const std::vector<Context>& parts) const {
+  ContextValues v = begin.values();
+  v.time = t, v.settled = true;
   Continuation continuation;
-  PendingExecutions pending;
-  bool waits = false;
-  for (std::size_t k = 0; k < all_.size(); ++k) {
-    const Context part = all_[k].run->context();
-    if (part.continuation() == nullptr) return begin_;  // an island ended before its first instant
-    for (std::size_t i = 0; i < islands_.leaves[k].size(); ++i) {
-      const int leaf = islands_.leaves[k][i];
-      if (islands_.of_leaf[leaf] != static_cast<int>(k)) continue;  // a copy
-      const Layout::Leaf& from = all_[k].layout->leaves[i];
-      const PlanLeaf& to = plan_->leaf(leaf);
-      v.continuous_state.segment(to.x, to.nx) = part.continuous_state().segment(from.x, from.nx);
-      v.discrete_state.segment(to.z, to.nz) = part.discrete_state().segment(from.z, from.nz);
-      nth(v.modes, leaf) = part.modes()[i];
-    }
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const Context& part = parts[k];
+    if (part.continuation() == nullptr) return begin;
+    write_values(v, part, k);
     v.settled = v.settled && part.settled();
     continuation.jump += part.continuation()->jump;
     continuation.islands.push_back(*part.continuation());
     continuation.islands.back().settled = part.settled();
-    if (part.pending() != nullptr) add_pending(pending, *part.pending(), k), waits = true;
   }
-  v.pending = nullptr;
-  if (schedule_) {
-    const auto sent = schedule_->waiting(time_);
+  v.pending = pending_of(t, parts);
+  v.continuation = std::make_shared<const Continuation>(std::move(continuation));
+  return begin.with_values(v);
+}
+
+/// Writes those of the blocks that island k owns.
+void IslandContexts::write_values(ContextValues& whole, const Context& part, std::size_t k) const {
+  for (std::size_t i = 0; i < islands_->leaves[k].size(); ++i) {
+    const int leaf = islands_->leaves[k][i];
+    if (islands_->of_leaf[leaf] != static_cast<int>(k)) continue;  // a copy
+    const Layout::Leaf& from = layouts_[k]->leaves[i];
+    const PlanLeaf& to = plan_->leaf(leaf);
+    whole.continuous_state.segment(to.x, to.nx) = part.continuous_state().segment(from.x, from.nx);
+    whole.discrete_state.segment(to.z, to.nz) = part.discrete_state().segment(from.z, from.nz);
+    nth(whole.modes, leaf) = part.modes()[i];
+  }
+}
+
+/// What waits in any island, or between two; null if nothing does.
+std::shared_ptr<const PendingExecutions> IslandContexts::pending_of(
+    double t, const std::vector<Context>& parts) const {
+  PendingExecutions pending;
+  bool waits = false;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (parts[k].pending() != nullptr) add_pending(pending, *parts[k].pending(), k), waits = true;
+  if (schedule_ != nullptr) {
+    const auto sent = schedule_->waiting(t);
     pending.deliveries.insert(pending.deliveries.end(), sent.begin(), sent.end());
     waits = waits || !sent.empty();
   }
-  if (waits) {
-    std::ranges::stable_sort(pending.deliveries, {}, &PendingDelivery::due);
-    v.pending = std::make_shared<const PendingExecutions>(std::move(pending));
-  }
-  v.continuation = std::make_shared<const Continuation>(std::move(continuation));
-  return begin_.with_values(v);
+  if (!waits) return {};
+  std::ranges::stable_sort(pending.deliveries, {}, &PendingDelivery::due);
+  return std::make_shared<const PendingExecutions>(std::move(pending));
 }
 
 }  // namespace saltus

@@ -2,8 +2,8 @@
 #include "saltus/simulation/detail/island_runs.hpp"
 
 #include <algorithm>
+#include <chrono>
 
-#include "saltus/base/detail/forced_unwind.hpp"
 #include "sensitivity_entries.hpp"
 
 namespace saltus {
@@ -16,13 +16,13 @@ using Clock = std::chrono::steady_clock;
 
 void IslandRuns::initialize(const Context& context) {
   require_context_of(*plan_, context);
-  require_fits(context);
+  contexts_.require_fits(context);
   begin_ = {};  // no run, if an island refuses its values
   const Context known = context.with_computed(plan_->computed);
   std::vector<int> jumps;
   for (std::size_t k = 0; k < all_.size(); ++k) {
     Island& island = all_[k];
-    island.begin = part_of(known, k);
+    island.begin = contexts_.part_of(known, k);
     island.run->initialize(island.begin);
     const Continuation* continuation = island.begin.continuation();
     jumps.push_back(continuation != nullptr ? continuation->jump : 0);
@@ -31,7 +31,7 @@ void IslandRuns::initialize(const Context& context) {
   begin_ = context;
   time_ = context.time();
   ends_.clear();
-  over_ = stopped_ = false, ender_.reset(), raised_ = nullptr;
+  over_ = stopped_ = false, ender_.reset(), interrupt_.begin();
   merger_.begin(jumps);
   results_.status = Status::reached_end, results_.message.clear(), results_.block.clear();
   results_.cause = nullptr;
@@ -59,8 +59,7 @@ Status IslandRuns::advance_to(double t_end) {
   require_ready(t_end);
   if (over_) return leave();
   const auto start = Clock::now();
-  asked_ = start, under_way_ = true;
-  caller_thread_ = std::this_thread::get_id(), stop_ = false;
+  interrupt_.begin_piece(), under_way_ = true;
   run_all(t_end);
   under_way_ = false;
   merger_.ran(std::chrono::duration<double>(Clock::now() - start).count());
@@ -116,7 +115,7 @@ double IslandRuns::run_in_turn(double t_end) {
     const Status status = run_one(k, t_end);
     take_end(k, status, t_end);
     if (status != Status::reached_end) continue;
-    stopped_ = interrupted_between();
+    stopped_ = interrupt_.asks_between();
     if (stopped_) ender_ = k;
   }
   return t_end;
@@ -144,46 +143,19 @@ void IslandRuns::take_end(std::size_t k, Status status, double& t_end) {
 /// Runs an island from the start of the run through its earlier pieces to t_end.
 void IslandRuns::run_again(std::size_t k, double t_end) {
   RunBySteps& run = *all_[k].run;
-  again_ = true;  // it cannot be interrupted: it has run so far before
+  interrupt_.run_again(true);
   run.initialize(all_[k].begin);
   for (const double end : ends_) run.advance_to(std::min(end, t_end));
   run.advance_to(t_end);
-  again_ = false;
+  interrupt_.run_again(false);
 }
 
-/// Whether the user asks the run to stop. An island asks at most every 20 ms of its own run, and
-/// many islands are shorter, so this looks at the clock again. Only the calling thread asks the user.
-bool IslandRuns::interrupted() {
-  if (again_) return false;
-  if (std::this_thread::get_id() != caller_thread_) return stop_;
-  if (!options_.interrupt) return false;
-  const auto now = Clock::now();
-  if (now - asked_ < std::chrono::milliseconds(20)) return false;
-  asked_ = now;
-  results_.statistics = counts();
-  return asks_to_stop();
-}
-
-/// Asks the user's function. Where it returns true or throws, the islands on other threads stop too.
-bool IslandRuns::asks_to_stop() {
-  try {
-    if (options_.interrupt()) stop_ = true;
-  } catch (...) {
-    stop_ = true;
-    throw;
-  }
-  return stop_;
-}
-
-/// The same between two islands, where no run takes an exception of the user's function.
-bool IslandRuns::interrupted_between() {
-  try {
-    return interrupted();
-  } catch (...) {
-    detail::pass_end_of_thread();
-    raised_ = std::current_exception();
-    return true;
-  }
+/// The values of all islands. A run that has not advanced has those with which it began.
+Context IslandRuns::context() const {
+  if (ends_.empty()) return begin_;
+  std::vector<Context> parts;
+  for (const Island& island : all_) parts.push_back(island.run->context());
+  return contexts_.whole_of(begin_, time_, parts);
 }
 
 double IslandRuns::time() const noexcept {
@@ -195,9 +167,9 @@ void IslandRuns::end_with(std::size_t k) {
   over_ = true;
   const Results& last = all_[k].run->results();
   if (stopped_) {  // by the user; the island may have run again since
-    results_.status = raised_ ? Status::failed : Status::interrupted;
+    results_.status = interrupt_.raised() ? Status::failed : Status::interrupted;
     results_.message = text("t = ", time_, " s: interrupted");
-    results_.cause = raised_;
+    results_.cause = interrupt_.raised();
     return;
   }
   results_.status = last.status, results_.message = last.message;

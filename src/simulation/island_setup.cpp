@@ -41,8 +41,10 @@ IslandRuns::IslandRuns(std::shared_ptr<const Plan> plan, Islands islands, Simula
     : plan_(std::move(plan)),
       islands_(std::move(islands)),
       options_(std::move(options)),
+      contexts_(*plan_, islands_),
       merger_(plan_, islands_, !options_.save_at.empty() && !options_.event_rows,
-              options_.sensitivity, results_) {
+              options_.sensitivity, results_),
+      interrupt_(options_.interrupt, [this] { results_.statistics = counts(); }) {
   detail::check(options_);
   require_widths(options_, *plan_);
   const auto sources = numbered(merger_.names());
@@ -52,6 +54,7 @@ IslandRuns::IslandRuns(std::shared_ptr<const Plan> plan, Islands islands, Simula
     std::vector<RunBySteps*> runs;
     for (const Island& island : all_) runs.push_back(island.run.get());
     schedule_.emplace(*plan_, islands_, std::move(runs));
+    contexts_.wire(*schedule_);
   }
   order_.resize(all_.size());
   std::iota(order_.begin(), order_.end(), std::size_t{0});
@@ -66,7 +69,7 @@ SimulatorOptions IslandRuns::options_for(std::size_t k, const SimulatorOptions& 
   own.rtol = tolerance_of(options.rtol, *plan_, leaves);
   own.atol = tolerance_of(options.atol, *plan_, leaves);
   own.islands = false, own.island_threads = 1, own.throw_errors = false;
-  own.interrupt = [this] { return interrupted(); };
+  own.interrupt = [this] { return interrupt_.asks(); };
   return own;
 }
 
@@ -75,7 +78,7 @@ void IslandRuns::add_island(std::size_t k, const SimulatorOptions& options,
   const std::shared_ptr<const Plan> part = plan_of_island(*plan_, islands_, k);
   Island island{.run = std::make_unique<RunBySteps>(part, options_for(k, options)),
                 .terminal = has_terminal_guard(*part)};
-  island.layout = std::make_shared<const Layout>(IslandTangents::layout_of(*part));
+  contexts_.add(*part);
   std::vector<int> numbers;
   for (const EventName& name : event_names(*part))
     numbers.push_back(
@@ -83,10 +86,6 @@ void IslandRuns::add_island(std::size_t k, const SimulatorOptions& options,
             ->second);
   merger_.add(
       {.run = island.run.get(), .sources = std::move(numbers), .signals = islands_.taps[k]});
-  for (const PlanLeaf& leaf : part->leaves) {
-    if (std::ranges::any_of(leaf.declared().zero_crossings, &ZeroCrossing::is_queued))
-      queue_ = static_cast<int>(k);
-  }
   all_.push_back(std::move(island));
 }
 

@@ -1,5 +1,7 @@
 // IslandRuns: islands on several threads.
 #include <algorithm>
+#include <atomic>
+#include <thread>
 
 #include "saltus/simulation/detail/island_runs.hpp"
 #include "saltus/simulation/detail/side_by_side.hpp"
@@ -26,21 +28,21 @@ std::size_t IslandRuns::threads() const {
 double IslandRuns::run_side_by_side(double t_end) {
   std::atomic<double> end{t_end};
   const auto run = [&](std::size_t i) {
-    if (stop_) return;
+    if (interrupt_.stops()) return;
     const std::size_t k = order_[i];
     Run& island = *all_[k].run;
     Status status = Status::reached_end;
-    if (std::this_thread::get_id() == caller_thread_) {
+    if (interrupt_.is_on_caller()) {
       status = run_one(k, end);
-      if (stop_) raised_ = island.results().cause;
+      if (interrupt_.stops()) interrupt_.keep(island.results().cause);
     } else {
       status = island.advance_to(end);
       progress_.add(island, time_);
     }
     if (status != Status::reached_end) lower_to(end, island.time());
   };
-  side_by_side(order_.size(), threads(), run, [this] { interrupted_between(); });
-  stopped_ = stop_;
+  side_by_side(order_.size(), threads(), run, [this] { interrupt_.asks_between(); });
+  stopped_ = interrupt_.stops();
   if (stopped_) {
     ender_ = 0;
     return end;

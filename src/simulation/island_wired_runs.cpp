@@ -10,7 +10,7 @@ namespace saltus {
 /// is deterministic, so it is the same run. Returns the end.
 double IslandRuns::run_wired(double t_end) {
   constexpr double no_limit = std::numeric_limits<double>::infinity();
-  const auto asks = [this] { return interrupted_between(); };
+  const auto asks = [this] { return interrupt_.asks_between(); };
   IslandSchedule::End end = schedule_->run(t_end, no_limit, threads(), asks);
   stopped_ = end.stopped;
   while (end.passed) {
@@ -19,7 +19,7 @@ double IslandRuns::run_wired(double t_end) {
   }
   ender_ = end.island;
   if (stopped_ && !ender_) ender_ = 0;
-  if (end.island && !raised_) stopped_ = false;  // it ended the run at that very time
+  if (end.island && !interrupt_.raised()) stopped_ = false;  // it ended the run at that very time
   return end.time;
 }
 

@@ -52,7 +52,8 @@ void TangentRows::drop() {
   }
 }
 
-void TangentRows::finish(const TangentColumns& at) {
+void TangentRows::finish(double t, TangentColumns at, const OneSided& one_sided) {
+  if (results_->status == Status::reached_end) gaps_->end(one_sided, t, at.x, at.z);
   Sensitivities& out = results_->sensitivities;
   out.continuous_state.clear(), out.discrete_state.clear();
   append_row_major(at.x, out.continuous_state), append_row_major(at.z, out.discrete_state);

@@ -83,19 +83,21 @@ std::string states_of(const Declarations& d) {
   return states;
 }
 
+/// "mode 0: hit falling reset → mode 1".
+std::string note_of(const ZeroCrossing& crossing) {
+  const std::string seen =
+      crossing.start_mode ? text("mode ", *crossing.start_mode, ": ") : std::string();
+  const std::string goes = crossing.end_mode ? text(" → mode ", *crossing.end_mode) : std::string();
+  return seen + detail::words_of(crossing) + goes;
+}
+
 }  // namespace
 
 std::vector<std::string> notes_of(const LeafSystem& leaf, const Plan* plan, int number) {
   const Declarations& d = leaf.declarations();
   std::vector<std::string> notes;
   if (std::string states = states_of(d); !states.empty()) notes.push_back(std::move(states));
-  for (const ZeroCrossing& crossing : d.zero_crossings) {
-    const std::string seen =
-        crossing.start_mode ? text("mode ", *crossing.start_mode, ": ") : std::string();
-    const std::string goes =
-        crossing.end_mode ? text(" → mode ", *crossing.end_mode) : std::string();
-    notes.push_back(seen + words_of(crossing) + goes);
-  }
+  for (const ZeroCrossing& crossing : d.zero_crossings) notes.push_back(note_of(crossing));
   for (const TimeEvent& event : d.time_events) notes.push_back(words_of(event));
   for (const OutputDeclaration& output : d.outputs) {
     if (!output.sampler) continue;

@@ -66,13 +66,16 @@ inline bool is_function(const std::optional<NumberOf>& number) {
   return number && !number->is_constant();
 }
 
+/// Whether a firing of the crossing calls a function of the block.
+inline bool calls_at_firing(const ZeroCrossing& crossing) {
+  return crossing.reset_map || is_function(crossing.delay) || is_function(crossing.priority);
+}
+
 inline void add_reset_roots(const PlanLeaf& leaf, std::vector<int>& roots) {
   const Declarations& d = leaf.declared();
   const std::size_t before = roots.size();
-  for (const auto& crossing : d.zero_crossings) {
-    if (crossing.reset_map || is_function(crossing.delay) || is_function(crossing.priority))
-      append(roots, leaf.inputs);
-  }
+  for (const auto& crossing : d.zero_crossings)
+    if (calls_at_firing(crossing)) append(roots, leaf.inputs);
   for (const auto& reset : d.edge_resets) append_inputs(roots, reset.inputs, leaf);
   for (const auto& event : d.time_events) {
     if (event.update) append_inputs(roots, event.inputs, leaf);

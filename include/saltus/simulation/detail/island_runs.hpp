@@ -1,17 +1,15 @@
 // IslandRuns: the islands of a system as runs of their own. It implements Simulator.
 #pragma once
 
-#include <atomic>
-#include <chrono>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "saltus/plan/islands.hpp"
+#include "saltus/simulation/detail/island_contexts.hpp"
+#include "saltus/simulation/detail/island_interrupt.hpp"
 #include "saltus/simulation/detail/island_merger.hpp"
 #include "saltus/simulation/detail/island_progress.hpp"
 #include "saltus/simulation/detail/island_schedule.hpp"
@@ -44,7 +42,6 @@ class IslandRuns {
  private:
   struct Island {
     std::unique_ptr<RunBySteps> run;
-    std::shared_ptr<const Layout> layout = {};
     Context begin = {};
     bool terminal = false;  ///< it has a guard that ends the run
   };
@@ -52,11 +49,6 @@ class IslandRuns {
   SimulatorOptions options_for(std::size_t k, const SimulatorOptions& options);
   void add_island(std::size_t k, const SimulatorOptions& options,
                   const std::vector<std::pair<std::string, int>>& sources);
-  void require_fits(const Context& context) const;
-  Context part_of(const Context& whole, std::size_t k) const;
-  std::shared_ptr<const PendingExecutions> pending_of(const PendingExecutions& whole,
-                                                      std::size_t k) const;
-  void add_pending(PendingExecutions& whole, const PendingExecutions& part, std::size_t k) const;
   void require_ready(double t_end) const;
   void run_all(double t_end);
   double run_in_turn(double t_end);
@@ -69,9 +61,6 @@ class IslandRuns {
   void take_end(std::size_t k, Status status, double& t_end);
   void run_again(std::size_t k, double t_end);
   std::size_t threads() const;
-  bool interrupted();
-  bool asks_to_stop();
-  bool interrupted_between();
   void end_with(std::size_t k);
   Status leave();
 
@@ -80,20 +69,17 @@ class IslandRuns {
   SimulatorOptions options_;
   std::vector<std::size_t> order_;  ///< islands that can end the run come first
   std::vector<Island> all_;
+  IslandContexts contexts_;
   std::optional<IslandSchedule> schedule_;  ///< if event wires lead from island to island
   mutable Results results_;
   mutable IslandMerger merger_;  ///< writes the columns of results_ where they are asked for
-  int queue_ = -1;               ///< the island that has the queue of executions
   Context begin_;
   std::vector<double> ends_;  ///< [s] of the pieces of the run
   double time_ = 0.0;         ///< [s]
-  bool over_ = false, under_way_ = false, again_ = false, stopped_ = false;
+  bool over_ = false, under_way_ = false, stopped_ = false;
   std::optional<std::size_t> ender_;  ///< the island that ended the run
-  std::exception_ptr raised_;         ///< by `interrupt`, between two islands
-  std::thread::id caller_thread_{};   ///< of `advance_to`, which alone calls `interrupt`
-  std::atomic<bool> stop_{false};     ///< the islands on other threads have to stop
+  IslandInterrupt interrupt_;
   IslandProgress progress_;
-  std::chrono::steady_clock::time_point asked_{};
   mutable Caller caller_{};
 };
 

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "saltus/simulation/detail/tangent_flow.hpp"
 
@@ -17,9 +18,10 @@ class OneSided {
 
   void begin() { t_ = std::numeric_limits<double>::quiet_NaN(); }
   /// An instant opens, with these derivatives at a fixed time.
-  void open(const Machine& machine, const TangentColumns& before) {
-    x_ = machine.x, z_ = machine.z, before_ = before;
+  void open(const Machine& machine, TangentColumns before) {
+    x_ = machine.x, z_ = machine.z, before_ = std::move(before);
   }
+  const TangentColumns& before() const noexcept { return before_; }
   /// Notes what the instant at t has changed up to now. `moving` are the derivatives at the moving
   /// time, `fixed` those at a fixed time, `event` is the cause of the instant.
   void judge(double t, const Machine& machine, const TangentColumns& moving,

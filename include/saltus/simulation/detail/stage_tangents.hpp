@@ -2,12 +2,9 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <vector>
 
-#include "saltus/simulation/detail/flow_terms.hpp"
-#include "saltus/simulation/detail/integration.hpp"
-#include "saltus/simulation/detail/variation.hpp"
+#include "saltus/simulation/detail/stage_accuracy.hpp"
+#include "saltus/simulation/detail/stage_step.hpp"
 
 namespace saltus {
 
@@ -21,53 +18,34 @@ namespace saltus {
 ///   jump, and one tolerance is the most.
 class StageTangents {
  public:
-  StageTangents(const Machine& machine, TangentFlow& flow) : flow_(&flow), terms_(machine, flow) {}
+  StageTangents(const Machine& machine, TangentFlow& flow)
+      : flow_(&flow), terms_(machine, flow), last_(terms_) {}
+  StageTangents(const StageTangents&) = delete;  // its last step refers to it
 
   /// A run begins.
   void begin(Variation::Tolerances tolerances, Eigen::VectorXd state_atol);
   /// The columns, or the flow, may have changed.
-  void forget() { continues_ = has_step_ = false, chosen_ = false; }
+  void forget() { continues_ = chosen_ = false, last_.forget(); }
 
   /// Carries the columns from `from` to `to` [s]. False if it does not, and nothing has changed then.
   bool advance(double from, double to, Integration& integration, TangentColumns& columns);
   /// Whether a switch of the flow has changed its side in that step.
   bool crossed_switch() const noexcept { return terms_.crossed(); }
-  /// Whether the last step was taken here.
-  bool has_step() const noexcept { return has_step_; }
-
-  /// S at a time within that step. False where the solver has its stages no more.
-  bool at(double t, Eigen::MatrixXd& s);
-  /// Prepares for `at`, before an instant changes what the flow reads.
-  bool prepare_inside();
-  /// The polynomial of that step; none where the solver has its stages no more.
-  std::optional<Variation::Piece> piece();
-  /// The begin of that step [s], S there, and who has taken it.
-  double from() const noexcept { return from_; }
-  Eigen::MatrixXd begin_of_step() const { return s0_; }
-  Integration& integration() const noexcept { return *integration_; }
+  /// That step. It is not there if the last step was not taken here.
+  StageStep& last() noexcept { return last_; }
 
  private:
-  using Flat = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   void prepare(const StepStages& step, const TangentColumns& columns);
-  bool is_good(const StepStages& step);
-  void read(double t, Eigen::MatrixXd& s);
 
   TangentFlow* flow_;
   FlowTerms terms_;
-  double rtol_ = 0.0, most_error_ = 1.0;  // [tolerances] the largest estimate
-  Flat atol_;
-  Eigen::VectorXd state_atol_;
+  StageAccuracy accuracy_;
   std::unique_ptr<ColumnSteps> steps_;
   decltype(StepStages::make) made_by_ = nullptr;
   int functions_ = -1;      // for which the terms were chosen
   bool chosen_ = false;     // the terms are those of the present columns
   bool continues_ = false;  // the last step ended where the next begins
-  bool has_step_ = false;   // the last step was taken here
-  bool dense_ready_ = false;
-  double from_ = 0.0, to_ = 0.0, t1_ = 0.0, h_ = 0.0;  // [s] of the last step
-  Integration* integration_ = nullptr;                 // that has taken it
-  Flat s0_, s1_, inside_;                              // S at both ends, and at a time inside
-  Flat allowed_;  // the absolute tolerance of each entry in that step
+  StageStep last_;
 };
 
 }  // namespace saltus

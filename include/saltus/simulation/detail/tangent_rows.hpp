@@ -25,8 +25,8 @@ class TangentRows {
   void add(double t, const double* x, const TangentColumns& at, const OneSided& one_sided);
   /// Takes the last row away.
   void drop();
-  /// The run ends with these derivatives.
-  void finish(const TangentColumns& at);
+  /// The run ends at t with these derivatives. Those that are one-sided at a regular end are no more.
+  void finish(double t, TangentColumns at, const OneSided& one_sided);
 
  private:
   const Machine* machine_;

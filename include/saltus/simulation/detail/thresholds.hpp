@@ -180,7 +180,7 @@ inline constexpr double idle_share = 1e-7;
 inline constexpr std::int64_t resting_events = 1'000'000;
 inline constexpr double resting_share = 1e-3;
 
-// --- derivatives through the stages of a step: stage_tangents.cpp (tests/laws/stage_tangents_test.cpp)
+// --- derivatives through the stages of a step: stage_accuracy.cpp (tests/laws/stage_tangents_test.cpp)
 
 /// [tolerances] and [of an entry of S] The largest error estimate of an entry of S in a step that the
 /// states have chosen, where the states have one of 1. The estimate is that of the lower order. Of four
