@@ -21,7 +21,7 @@ namespace saltus {
 /// of a task or of `look`, after all threads have ended; no further task begins then.
 template <class Task, class Look>
 void side_by_side(std::size_t count, std::size_t threads, const Task& task, const Look& look) {
-  constexpr auto look_every = std::chrono::milliseconds(20);  // as often as a run asks `interrupt`
+  constexpr auto asks_every = std::chrono::milliseconds(20);  // as often as a run asks `interrupt`
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
   std::condition_variable ended;
@@ -53,7 +53,7 @@ void side_by_side(std::size_t count, std::size_t threads, const Task& task, cons
     });
   work();
   std::unique_lock lock(mutex);
-  while (!ended.wait_for(lock, look_every, [&] { return working == 0; })) {
+  while (!ended.wait_for(lock, asks_every, [&] { return working == 0; })) {
     lock.unlock();
     guarded(look);
     lock.lock();
