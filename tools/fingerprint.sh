@@ -3,7 +3,7 @@
 fingerprint_folders=(laws errors semantics)  # of tests/, each run of a test in them is a line
 
 # The extreme cases are run by name. The others depend on the order of threads, or on a clock.
-fingerprint_not=(extremes_test results_threads_test ensemble_test report_test) fingerprint_clock='~"an interrupt that throws*"'
+fingerprint_not=(extremes_test results_threads_test ensemble_test island_threads_test report_test) fingerprint_clock='~"an interrupt that throws*"'
 
 fingerprint_job() {  # NAME: one part of the fingerprint, to build/fingerprint/NAME.tsv
   local out=build/fingerprint/$1.tsv program=build/dev/bin/saltus_fingerprint
