@@ -183,6 +183,37 @@ Diagram in_a_called_guard(const Wave& of) {
   });
 }
 
+/// The same of a state that is the time, as a function in C++ that is called.
+Diagram in_a_called_guard_of_a_clock(const Wave& of) {
+  DiagramBuilder builder;
+  builder.add(make_leaf("x", [&](Leaf& l) {
+    l.declare_discrete_state(vec({of.at(0.0) > of.level ? 1.0 : 0.0}));
+    l.declare_continuous_state({.initial = vec({0.0, 0.0}), .ode = [](const At& at, VectorRef xdot) {
+                                  xdot << at.z[0], 1.0;
+                                }});
+    l.declare_zero_crossing({.name = "change",
+                             .guard = [of](const At& at) { return of.at(at.x[1]) - of.level; },
+                             .reset_map = [](const At& at, Next& next) {
+                               next.set_discrete_state(vec({1.0 - at.z[0]}));
+                             }});
+  }));
+  return builder.build();
+}
+/// A clock of its own, 1 + 2 t, whose called output is the wave.
+Diagram behind_a_called_output_of_a_clock(const Wave& of) {
+  DiagramBuilder builder;
+  const auto source = make_leaf("clock", [of](Leaf& l) {
+    l.declare_continuous_state(
+        {.initial = vec({1.0}), .ode = [](const At&, VectorRef xdot) { xdot << 2.0; }});
+    l.declare_output_port({.name = "out", .calc = [of](const At& at, VectorRef y) {
+                             y[0] = of.at(0.5 * (at.x[0] - 1.0));
+                           }});
+  });
+  integrate(builder, source->output(), of.level);
+  builder.add(source);
+  return builder.build();
+}
+
 /// The frequency of a Chirp grows from f0 to f1 at stop_time: amplitude 1, and no bias.
 Diagram behind_a_chirp(const Wave& of) {
   constexpr double stop = 40.0;
@@ -206,7 +237,10 @@ constexpr std::array rows{Row{"behind a sine", behind_a_sine},
                           Row{"beside a slow state", beside_a_slow_state},
                           Row{"beside resets", beside_resets},
                           Row{"in a guard", in_a_guard},
-                          Row{"in a called guard", in_a_called_guard}};
+                          Row{"in a called guard", in_a_called_guard},
+                          Row{"in a called guard of a clock", in_a_called_guard_of_a_clock},
+                          Row{"behind a called output of a clock",
+                              behind_a_called_output_of_a_clock}};
 
 /// The firings that change x, and x at the end, in closed form.
 void check(const char* name, const Diagram& diagram, const Wave& of, Method method, double rtol,
