@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 
 #include "saltus/analysis/detail/thresholds.hpp"
+#include "saltus/base/detail/eigenvalues.hpp"
 #include "saltus/base/error.hpp"
 #include "saltus/base/list.hpp"
 #include "trim_search.hpp"
