@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <thread>
+#include <vector>
 
 #include "saltus/simulation/detail/island_runs.hpp"
 #include "saltus/simulation/detail/side_by_side.hpp"
@@ -47,12 +48,25 @@ double IslandRuns::run_side_by_side(double t_end) {
     ender_ = 0;
     return end;
   }
+  run_ties_again(t_end, end);
   for (std::size_t k = 0; k < all_.size(); ++k) {
     const Run& island = *all_[k].run;
     if (island.results().status == Status::reached_end) continue;
     if (!ender_ || island.time() < all_[*ender_].run->time()) ender_ = k;
   }
   return end;
+}
+
+/// Which of several islands that end the run at one time knew of the end of another depends on the
+/// threads. They run again as one after the other does: the first to `t_end`, and the others to its end.
+void IslandRuns::run_ties_again(double t_end, double end) {
+  std::vector<std::size_t> tied;
+  for (const std::size_t k : order_) {
+    const Run& island = *all_[k].run;
+    if (island.results().status != Status::reached_end && island.time() == end) tied.push_back(k);
+  }
+  if (tied.size() < 2) return;
+  for (const std::size_t k : tied) run_again(k, k == tied.front() ? t_end : end);
 }
 
 }  // namespace saltus

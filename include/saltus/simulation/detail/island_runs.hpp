@@ -20,7 +20,8 @@ namespace saltus {
 /// One island after the other runs to the common end, or several at once on threads. If an island
 /// ends the run earlier, at t*, the islands that are ahead run again, from the start of the run to
 /// t*. A run is deterministic: each island has the bits of its part run alone to t*, on any number
-/// of threads. Islands between which event wires lead run in windows of time: see IslandSchedule. The logs, rows and counts of all islands are put together when they are asked for.
+/// of threads. Islands between which event wires lead run in windows of time: see IslandSchedule. The
+/// logs, rows and counts of all islands are put together when they are asked for.
 class IslandRuns {
  public:
   IslandRuns(std::shared_ptr<const Plan> plan, Islands islands, SimulatorOptions options);
@@ -53,6 +54,7 @@ class IslandRuns {
   void run_all(double t_end);
   double run_in_turn(double t_end);
   double run_side_by_side(double t_end);
+  void run_ties_again(double t_end, double end);
   void end_piece(double t_end);
   double run_wired(double t_end);
   void begin_again();
