@@ -97,8 +97,8 @@ bool GuardSides::left_zero_beside_root(std::size_t k) {
 void GuardSides::continue_beside_root(std::size_t k) {
   if (left_zero_beside_root(k)) return;
   const Guard& guard = (*guards_)[k];
-  const Departure::Side flow = flow_->side(plan().guard(guard.group), static_cast<Index>(k),
-                                           std::abs(present_->g[k]), 0);
+  const Departure::Side flow =
+      flow_->side(plan().guard(guard.group), static_cast<Index>(k), std::abs(present_->g[k]), 0);
   const int side = side_beside_root(guard.direction, flow.side);
   if (side != guard.side) guards_->wait(k, side, flow.rounding);
 }

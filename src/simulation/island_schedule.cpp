@@ -84,8 +84,8 @@ void IslandSchedule::note_end(std::size_t k, End& end) {
 }
 
 bool IslandSchedule::has_passed(double t) const {
-  return std::ranges::any_of(runs_,
-                             [&](const RunBySteps* run) { return run->time() > t + Calendar::slack(t); });
+  return std::ranges::any_of(
+      runs_, [&](const RunBySteps* run) { return run->time() > t + Calendar::slack(t); });
 }
 
 /// All islands end at the end of the run. A taken step that reaches beyond is cut.

@@ -7,7 +7,8 @@
 
 namespace saltus {
 
-IslandSchedule::IslandSchedule(const Plan& plan, const Islands& islands, std::vector<RunBySteps*> runs)
+IslandSchedule::IslandSchedule(const Plan& plan, const Islands& islands,
+                               std::vector<RunBySteps*> runs)
     : plan_(&plan),
       islands_(&islands),
       runs_(std::move(runs)),

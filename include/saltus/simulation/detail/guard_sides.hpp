@@ -10,9 +10,9 @@ namespace saltus {
 /// continues. The decisions are those of pass_decisions.hpp, CrossingArming, Relations and ContactGuards.
 class GuardSides {
  public:
-  GuardSides(const Scope& scope, Machine& machine, GuardSet& guards, Flow& flow,
-             const Holds& holds, ContactGuards& contacts, Relations& relations,
-             CrossingArming& crossings, Present& present)
+  GuardSides(const Scope& scope, Machine& machine, GuardSet& guards, Flow& flow, const Holds& holds,
+             ContactGuards& contacts, Relations& relations, CrossingArming& crossings,
+             Present& present)
       : scope_(&scope),
         machine_(&machine),
         guards_(&guards),
