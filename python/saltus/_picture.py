@@ -42,7 +42,7 @@ def _with_mode_names(text: str, system: System) -> str:
     declared = getattr(system, "_declared", None)
     for mode, name in enumerate(declared.modes if declared else ()):
         plain = " ".join(name.replace("#", "#35;").replace('"', "#quot;").split())
-        text = text.replace(f'state "mode {mode}" as', f'state "{plain}" as')
+        text = text.replace(f'state "mode {mode}" as m{mode}\n', f'state "{plain}" as m{mode}\n')
     return text
 
 

@@ -122,9 +122,10 @@ class DeclaresValues(_core.LeafSystem):
 
         `names` names the modes 0, 1, ...: ``declare_default_mode("off", names=["off", "on"])``. Then
         `start_mode` and `end_mode` may be names, and pictures show them. `state.mode` is the number.
+        A later call without `names`, for example in a subclass, keeps the names.
         """
         what = f"block '{self.name}': default mode"
-        labels = mode_names(what, names)
+        labels = mode_names(what, names) or self._declared.modes
         super().declare_default_mode(mode_of(what, mode, labels))
         self._declared.modes = labels
 
