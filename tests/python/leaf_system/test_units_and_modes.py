@@ -218,6 +218,31 @@ def test_a_state_machine_names_its_states():
     assert results.mode_names == {"state": ("closed", "open")}
 
 
+def test_the_picture_of_a_state_machine_has_its_states_and_where_its_transitions_lead():
+    door = StateMachine(
+        ["closed", "open", "locked"],
+        [Transition("closed", "open", after=1.0), Transition("open", "locked", after=1.0)],
+        initial="open",
+    )
+    assert door.to_mermaid("modes").splitlines() == [
+        "stateDiagram-v2",
+        '  state "closed" as m0',
+        '  state "open" as m1',
+        '  state "locked" as m2',
+        "  [*] --> m1",
+        "  m0 --> m1 : closed_to_open",
+        "  m1 --> m2 : open_to_locked",
+    ]
+
+
+def test_signs_that_mermaid_reads_are_entities_in_the_name_of_a_mode():
+    system = saltus.LeafSystem(name="ball")
+    system.declare_default_mode(0, names=['a"b', "<i>;#\n°"])
+    system.declare_zero_crossing(lambda t, s: t - 1.0, name="g", start_mode=0, end_mode=1)
+    lines = system.to_mermaid("modes").splitlines()
+    assert lines[1:3] == ['  state "a#34;b" as m0', '  state "#60;i#62;#59;#35; °" as m1']
+
+
 def test_a_scene_file_says_units_and_modes():
     scene = loads(
         'version = 1\nmodes = ["rest", "go"]\n[states]\nway = { rate = "1", unit = "m" }\ny = {}\n'
