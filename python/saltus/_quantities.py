@@ -24,6 +24,7 @@ __all__ = [
     "mode_names",
     "mode_of",
     "named_states",
+    "on_zeno_of",
     "quantity_of",
     "says",
     "units_of",
@@ -119,6 +120,24 @@ def mode_of(what: str, mode: Any, names: tuple[str, ...]) -> Any:
         hint = known_names(mode, list(names)) if names else remedy
         raise ModelError(f"{what}: unknown mode {mode!r}{hint}")
     return names.index(mode)
+
+
+ON_ZENO = ("hold", "stop", "error")
+
+
+def on_zeno_of(what: str, given: Any, names: tuple[str, ...]) -> Any:
+    """`on_zeno` with the number of a mode that is given by its name. ModelError."""
+    if isinstance(given, str) and given in ON_ZENO:
+        if given in names:
+            raise ModelError(
+                f"{what}: on_zeno: {given!r} is a choice and the name of a mode; for the mode give "
+                f"its number, {names.index(given)}, for the choice rename the mode"
+            )
+        return given
+    if isinstance(given, str) and given not in names:
+        known = known_names(given, [*ON_ZENO, *names])
+        raise ModelError(f"{what}: unknown on_zeno {given!r}{known}")
+    return mode_of(f"{what}: on_zeno", given, names)
 
 
 def _texts(what: str, key: str, values: Any, example: str) -> tuple[str, ...]:

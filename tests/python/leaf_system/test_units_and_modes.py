@@ -73,6 +73,23 @@ def test_modes_by_name_are_those_by_number():
     assert warm[1] - cold[0] == pytest.approx(np.log(21 / 19), abs=1e-5)
 
 
+@pytest.mark.parametrize("rest", ["rests", 1])
+def test_a_mode_by_its_name_after_infinitely_many_resets(rest):
+    """Height 1 m at rest, g = 2 m/s^2 and e = 0.5: it hits at 1 s, and stops bouncing at 3 s."""
+    ball = saltus.LeafSystem(name="ball")
+    ball.declare_continuous_state(
+        [1.0, 0.0], ode=lambda t, s: [s.continuous_state[1], -2.0 * (1 - s.mode)]
+    )
+    ball.declare_default_mode("flies", names=["flies", "rests"])
+    ball.declare_zero_crossing(
+        lambda t, s: s.continuous_state[0],
+        lambda t, s: s.with_continuous_state([0.0, -0.5 * s.continuous_state[1]]),
+        name="hit", direction="falling", start_mode="flies", on_zeno=rest,
+    )  # fmt: skip
+    assert saltus.simulate(ball, (0.0, 2.9)).context.mode == 0
+    assert saltus.simulate(ball, (0.0, 3.1)).context.mode == 1
+
+
 @pytest.mark.parametrize("depth", [1, 2, 3])
 def test_outputs_of_diagrams_show_what_their_blocks_say(depth):
     results = saltus.simulate(house(depth), (0.0, 0.1))
@@ -253,6 +270,12 @@ def test_a_scene_file_says_units_and_modes():
     assert results.mode_names == {"mode": ("rest", "go")}
 
 
+def with_modes(*names):
+    system = saltus.LeafSystem(name="ball")
+    system.declare_default_mode(0, names=names)
+    return system
+
+
 def declare(**given):
     system = saltus.LeafSystem(name="ball")
     system.declare_continuous_state(2, **given)
@@ -277,6 +300,14 @@ def declare(**given):
         (
             lambda: Room().declare_zero_crossing(lambda t, s: 1.0, name="g", start_mode="of"),
             "zero crossing 'g': unknown mode 'of'; did you mean 'off'",
+        ),
+        (
+            lambda: Room().declare_zero_crossing(lambda t, s: 1.0, name="g", on_zeno="of"),
+            "zero crossing 'g': unknown on_zeno 'of'; did you mean 'off'",
+        ),
+        (
+            lambda: with_modes("hold", "go").declare_edge_reset(len, 0, name="e", on_zeno="hold"),
+            "edge reset 'e': on_zeno: 'hold' is a choice and the name of a mode; .* number, 0",
         ),
         (
             lambda: Room().declare_zero_crossing(lambda t, s: 1.0, name="g", end_mode=2),
