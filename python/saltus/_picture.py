@@ -42,7 +42,7 @@ def to_mermaid(system: System, what: str, signals: Recorded, max_depth: int | No
 
 def _with_mode_names(text: str, system: System) -> str:
     """The states of a picture under the names that the block gives its modes."""
-    declared = getattr(system, "_declared", None)
+    declared = getattr(system, "_declared_quantities", None)
     for mode, name in enumerate(declared.modes if declared else ()):
         text = text.replace(f'state "mode {mode}" as m{mode}\n', _state(mode, name))
     return text

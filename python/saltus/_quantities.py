@@ -71,16 +71,16 @@ class Declared:
 def quantity_of(port: OutputPort) -> Quantity:
     """What an output shows, as the block declares it that is behind it."""
     system: Any = port.system
+    declared: Declared | None = getattr(system, "_declared_quantities", None)
+    if declared is not None:
+        return declared.of(port.index)
     exported = getattr(system, "_exported", ())  # of a diagram that was made in Python
-    if port.index < len(exported):
-        return quantity_of(exported[port.index])
-    declared = getattr(system, "_declared", None)
-    return NOTHING if declared is None else declared.of(port.index)
+    return quantity_of(exported[port.index]) if port.index < len(exported) else NOTHING
 
 
 def says(system: Any) -> bool:
     """Whether a block says units or names of modes, or a block inside a diagram does."""
-    declared = getattr(system, "_declared", None)
+    declared = getattr(system, "_declared_quantities", None)
     if declared is None:
         return bool(getattr(system, "_says", False))
     return any(declared.units) or bool(declared.modes)
@@ -148,5 +148,5 @@ def _texts(what: str, key: str, values: Any, example: str) -> tuple[str, ...]:
 
 def named_states(system: Any) -> Iterator[int]:
     """The outputs of a block that show states by name."""
-    declared = getattr(system, "_declared", None)
+    declared = getattr(system, "_declared_quantities", None)
     return iter(() if declared is None else declared.states)

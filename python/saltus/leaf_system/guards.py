@@ -27,7 +27,7 @@ class DeclaresGuards(_core.LeafSystem):
 
     __slots__ = ()
 
-    _declared: Declared
+    _declared_quantities: Declared
 
     @refusing
     def declare_zero_crossing(
@@ -138,13 +138,13 @@ class DeclaresGuards(_core.LeafSystem):
         what = f"block '{self.name}': zero crossing '{name or ''}'"
         options = {
             "direction": direction_of(direction),
-            "start_mode": mode_of(what, start_mode, self._declared.modes),
-            "end_mode": mode_of(what, end_mode, self._declared.modes),
+            "start_mode": mode_of(what, start_mode, self._declared_quantities.modes),
+            "end_mode": mode_of(what, end_mode, self._declared_quantities.modes),
             "terminal": terminal,
             "max_count": max_count,
             "size": size,
             "at_start": at_start,
-            "on_zeno": on_zeno_of(what, on_zeno, self._declared.modes),
+            "on_zeno": on_zeno_of(what, on_zeno, self._declared_quantities.modes),
             "zeno_tolerance": zeno_tolerance,
             "holds": _for_each_guard(holds, size),
             "formula": bool(formula),
@@ -265,7 +265,7 @@ class DeclaresGuards(_core.LeafSystem):
         what = f"block '{self.name}': edge reset '{name or ''}'"
         options = {
             "edge": edge,
-            "on_zeno": on_zeno_of(what, on_zeno, self._declared.modes),
+            "on_zeno": on_zeno_of(what, on_zeno, self._declared_quantities.modes),
             "zeno_tolerance": zeno_tolerance,
             "inputs": inputs_of(requires_inputs),
         }

@@ -151,8 +151,8 @@ class StateMachine(LeafSystem):
             (event, place(taken.source), place(taken.target))
             for taken, event in zip(transitions, events, strict=True)
         )
-        self._declared.modes = self._states
-        self._declared.mode = (self.output_names.index("state"),)
+        self._declared_quantities.modes = self._states
+        self._declared_quantities.mode = (self.output_names.index("state"),)
 
     @property
     def states(self) -> tuple[str, ...]:

@@ -229,6 +229,15 @@ def test_the_outputs_of_a_system_that_is_executed_have_the_units_of_its_own():
     assert results.mode_names == {"h": ("off", "on")}
 
 
+@pytest.mark.parametrize("name", ["_declared", "_exported", "_says", "units", "modes"])
+def test_a_block_may_have_attributes_of_any_such_name(name):
+    system = Room()
+    setattr(system, name, 3)
+    system.declare_continuous_state_output("again")
+    results = saltus.simulate(system, (0.0, 0.1), recorded_signals=["temperature", "again"])
+    assert results.units == {"temperature": "°C", "again": ("°C", "m/s")}
+
+
 def test_a_state_machine_names_its_states():
     door = StateMachine(["closed", "open"], [Transition("closed", "open", after=1.0)], name="door")
     results = saltus.simulate(door, (0.0, 2.0), recorded_signals=["state"])
