@@ -98,7 +98,7 @@ SAMPLED = [
     ("EdgeDetection, either", EdgeDetection(0.5, "either"), [STEP]),
     ("DiscreteClock", DiscreteClock(1.0), []),
     ("RandomNumber", RandomNumber(0.5, seed=1), []),
-    ("WhiteNoise", WhiteNoise(0.05, 0.05), []),
+    ("WhiteNoise", WhiteNoise(0.05, power=0.05), []),
     ("Chirp", Chirp(0.5, 6.0, 8.0), []),
     ("Sawtooth", Sawtooth(1.0, 0.4), []),
     ("DataSource", DataSource([0, 2, 3, 5, 8], [0, 2, -1, -1, 1]), []),

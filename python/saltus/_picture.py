@@ -14,6 +14,7 @@ from saltus import _core
 from saltus._engine import ports_of
 from saltus._signals import signals_in
 from saltus.errors import ModelError
+from saltus.library.state_machine import StateMachine
 from saltus.system import OutputPort, System
 
 __all__ = ["in_markdown", "in_svg", "to_dot", "to_mermaid"]
@@ -30,6 +31,8 @@ def to_mermaid(system: System, what: str, signals: Recorded, max_depth: int | No
     if what == "modes":
         if signals is not None or max_depth is not None:
             raise ModelError('to_mermaid("modes") takes neither recorded_signals nor max_depth')
+        if isinstance(system, StateMachine):
+            return _machine(system)
         return _with_mode_names(_core.modes_to_mermaid(system), system)
     if what != "blocks":
         known = _core.known_names(what, ["blocks", "modes"])
@@ -39,11 +42,38 @@ def to_mermaid(system: System, what: str, signals: Recorded, max_depth: int | No
 
 def _with_mode_names(text: str, system: System) -> str:
     """The states of a picture under the names that the block gives its modes."""
-    declared = getattr(system, "_declared", None)
+    declared = getattr(system, "_declared_quantities", None)
     for mode, name in enumerate(declared.modes if declared else ()):
-        plain = " ".join(name.replace("#", "#35;").replace('"', "#quot;").split())
-        text = text.replace(f'state "mode {mode}" as', f'state "{plain}" as')
+        text = text.replace(f'state "mode {mode}" as m{mode}\n', _state(mode, name))
     return text
+
+
+def _machine(machine: StateMachine) -> str:
+    """The states of a machine with its transitions, whose zero crossings choose their modes in
+    their reset maps, so that the engine does not know where they lead.
+    """
+    lines = ["stateDiagram-v2\n"]
+    lines += [f"  {_state(i, name)}" for i, name in enumerate(machine.states)]
+    lines += [f"  [*] --> m{machine._first}\n"]
+    lines += [f"  m{i} --> m{j} : {_plain(event)}\n" for event, i, j in machine._arrows]
+    return "".join(lines)
+
+
+def _state(mode: int, name: str) -> str:
+    """The line that names a state of a picture, as the engine writes it."""
+    return f'state "{_plain(name)}" as m{mode}\n'
+
+
+def _plain(name: str) -> str:
+    """A text for a label, by the rule of the engine."""
+    return "".join(_sign(each) for each in name)
+
+
+def _sign(sign: str) -> str:
+    """A character of a label: those that Mermaid may read as something else are entities."""
+    if sign.isalnum() or sign >= "\x80" or sign in " .,_-+*/=!?'":
+        return sign
+    return " " if sign < " " or sign == "\x7f" else f"#{ord(sign)};"
 
 
 def in_svg(system: System) -> str | None:

@@ -139,7 +139,8 @@ def refusing(method: Callable[P, R]) -> Callable[P, R]:
             if not options.keys() <= set(known):
                 from saltus.library.ported import as_here
 
-                options = as_here(where, options, known)  # type: ignore[assignment]
+                placed = dict(zip(positional, arguments[1:], strict=False))
+                options = as_here(where, options, known, placed)  # type: ignore[assignment]
         refuse(where, options, known, hints)
         try:
             if positional and _has_expressions(arguments, options):

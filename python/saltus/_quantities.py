@@ -24,6 +24,7 @@ __all__ = [
     "mode_names",
     "mode_of",
     "named_states",
+    "on_zeno_of",
     "quantity_of",
     "says",
     "units_of",
@@ -70,16 +71,16 @@ class Declared:
 def quantity_of(port: OutputPort) -> Quantity:
     """What an output shows, as the block declares it that is behind it."""
     system: Any = port.system
+    declared: Declared | None = getattr(system, "_declared_quantities", None)
+    if declared is not None:
+        return declared.of(port.index)
     exported = getattr(system, "_exported", ())  # of a diagram that was made in Python
-    if port.index < len(exported):
-        return quantity_of(exported[port.index])
-    declared = getattr(system, "_declared", None)
-    return NOTHING if declared is None else declared.of(port.index)
+    return quantity_of(exported[port.index]) if port.index < len(exported) else NOTHING
 
 
 def says(system: Any) -> bool:
     """Whether a block says units or names of modes, or a block inside a diagram does."""
-    declared = getattr(system, "_declared", None)
+    declared = getattr(system, "_declared_quantities", None)
     if declared is None:
         return bool(getattr(system, "_says", False))
     return any(declared.units) or bool(declared.modes)
@@ -121,6 +122,24 @@ def mode_of(what: str, mode: Any, names: tuple[str, ...]) -> Any:
     return names.index(mode)
 
 
+ON_ZENO = ("hold", "stop", "error")
+
+
+def on_zeno_of(what: str, given: Any, names: tuple[str, ...]) -> Any:
+    """`on_zeno` with the number of a mode that is given by its name. ModelError."""
+    if isinstance(given, str) and given in ON_ZENO:
+        if given in names:
+            raise ModelError(
+                f"{what}: on_zeno: {given!r} is a choice and the name of a mode; for the mode give "
+                f"its number, {names.index(given)}, for the choice rename the mode"
+            )
+        return given
+    if isinstance(given, str) and given not in names:
+        known = known_names(given, [*ON_ZENO, *names])
+        raise ModelError(f"{what}: unknown on_zeno {given!r}{known}")
+    return mode_of(f"{what}: on_zeno", given, names)
+
+
 def _texts(what: str, key: str, values: Any, example: str) -> tuple[str, ...]:
     if not isinstance(values, (list, tuple)) or not all(isinstance(v, str) for v in values):
         raise ModelError(f"{what}: {key}: expected {example}, found {values!r}")
@@ -129,5 +148,5 @@ def _texts(what: str, key: str, values: Any, example: str) -> tuple[str, ...]:
 
 def named_states(system: Any) -> Iterator[int]:
     """The outputs of a block that show states by name."""
-    declared = getattr(system, "_declared", None)
+    declared = getattr(system, "_declared_quantities", None)
     return iter(() if declared is None else declared.states)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from copy import copy
 from typing import Any
 
 from saltus import _core
@@ -101,9 +102,16 @@ def signals_of(system: System, signals: Any) -> dict[str, OutputPort]:
     return {system.output_names[i]: OutputPort(system, i) for i in named_states(system)}
 
 
-def quantities_of(system: System, signals: Any) -> dict[str, Quantity]:
-    """What the signals of a run show, of those whose blocks say it."""
+def quantities_of(system: System, signals: Any) -> Callable[[], dict[str, Quantity]]:
+    """What the signals of a run show, of those whose blocks say it. It is found when it is called:
+    for many signals that takes longer than a short run.
+    """
     if not says(system):
-        return {}
-    found = {name: quantity_of(port) for name, port in signals_of(system, signals).items()}
-    return {name: one for name, one in found.items() if one}
+        return dict
+    given = copy(signals)  # which the user may change after the run
+
+    def find() -> dict[str, Quantity]:
+        found = {name: quantity_of(port) for name, port in signals_of(system, given).items()}
+        return {name: one for name, one in found.items() if one}
+
+    return find

@@ -41,21 +41,6 @@ def _event_of(where: str, name: object, entry: object) -> tuple[str, int | None]
     return name, place
 
 
-def _text(name: object) -> str:
-    if not isinstance(name, str):
-        raise ModelError(f"create_context: values: expected names, found {name!r}")
-    return name
-
-
-def _numbers(name: str, value: ArrayLike) -> np.ndarray:
-    try:
-        return np.ravel(np.asarray(value, dtype=float))
-    except (TypeError, ValueError):
-        raise ModelError(
-            f"create_context: values: '{name}': expected numbers, found {value!r}"
-        ) from None
-
-
 class Count:
     """The length of a list of a system; a class of the user may have an attribute of that name."""
 
@@ -286,17 +271,16 @@ class System:
         Context(time=0, continuous_state=[1, 5], mode=0)
         """
         remember(self)
+        if isinstance(time, Mapping):
+            raise ModelError(
+                "create_context: time: expected a time [s], found a dict; give it as values={...}"
+            )
         context = _core.System.create_context(self, time)
         if values is None:
             return context
-        if not isinstance(values, Mapping):
-            raise ModelError(
-                "create_context: values: expected a dict of names with values, "
-                f'{{"ball.height": 5.0}}, found {values!r}'
-            )
-        for name, value in values.items():
-            context = _core.with_entry(context, _text(name), _numbers(name, value))
-        return context
+        from saltus._start_values import with_values
+
+        return with_values(context, values)
 
     def eval_time_derivatives(self, context: _core.Context) -> np.ndarray:
         """dx/dt of the continuous states of this system at a context, without a run.

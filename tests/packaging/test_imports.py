@@ -62,6 +62,7 @@ LATE = {
     ("saltus.system", "saltus._evaluate"): "reads contexts, which are those of systems",
     ("saltus.system", "saltus._picture"): "loads subprocess, for Graphviz",
     ("saltus.system", "saltus._tree"): "reads the blocks of a diagram, which is a system",
+    ("saltus.system", "saltus._start_values"): "most contexts have the values of their system",
 }
 """(module, what a function of it imports) -> why this waits until the function is called"""
 ROOMS = {

@@ -137,7 +137,7 @@ def test_a_sweep_over_seeds_has_the_bits_of_single_runs():
         (lambda: DataSource([0, 1], [1, 2], "cubic"), "unknown interpolation 'cubic'"),
         (lambda: RandomNumber(1.0, "gauss"), "unknown distribution 'gauss'"),
         (lambda: RandomNumber(1.0, standard_deviation=-1), "expected a number >= 0"),
-        (lambda: WhiteNoise(1.0, -1.0), "power = -1"),
+        (lambda: WhiteNoise(1.0, power=-1.0), "power = -1"),
     ],
 )
 def test_refusals(make, message):

@@ -16,8 +16,10 @@ from saltus.library import (
     DataSource,
     Demultiplexer,
     DerivativeDiscrete,
+    DiscreteClock,
     EdgeDetection,
     FeedthroughBlock,
+    Gain,
     Integrator,
     LookupTable2d,
     LTISystem,
@@ -140,6 +142,13 @@ ALIKE = {
         Saturate(upper_limit=1.0, enable_dynamic_upper_limit=False), Saturate(upper_limit=1.0),
         (3.0,),
     ),
+    "PIDDiscrete without a filter": (
+        PIDDiscrete(0.1, 1.0, 2.0, 0.0, filter_type="none", filter_coefficient=3.0),
+        PIDDiscrete(0.1, 1.0, ki=2.0), (Clock(),),
+    ),
+    "DiscreteClock": (
+        DiscreteClock(0.1, start_time=0.0, dtype=np.dtype(float)), DiscreteClock(0.1), (),
+    ),
     "Integrator": (Integrator(1.0, dtype=float), Integrator(1.0), (2.0,)),
     "ScalarBroadcast": (ScalarBroadcast(m=3, n=None), ScalarBroadcast(3), (2.0,)),
     "Slice": (Slice(slice_="0:2"), Slice("0:2"), ([1.0, 2.0, 3.0],)),
@@ -201,6 +210,35 @@ REFUSED = {
     "an interpolation": (
         lambda: LookupTable2d([0, 1], [0, 1], [[0, 1], [1, 2]], interpolation="cubic"),
         "unknown option 'interpolation'",
+    ),
+    "an interpolation that is no text": (
+        lambda: LookupTable2d([0, 1], [0, 1], [[0, 1], [1, 2]], interpolation=np.zeros(2)),
+        "unknown option 'interpolation'",
+    ),
+    "a filter by position and none by name": (
+        lambda: DerivativeDiscrete(0.1, 2.0, filter_type="none"), "the filter is 'backward' here",
+    ),
+    "a filter without a coefficient, which has another default": (
+        lambda: DerivativeDiscrete(0.1, filter_type="backward"), "say filter_coefficient too",
+    ),
+    "a PID with a filter without a coefficient": (
+        lambda: PIDDiscrete(0.1, 1.0, 2.0, 3.0, filter_type="backward"), "filter_coefficient too",
+    ),
+    "a derivative by position without a filter": (
+        lambda: PIDDiscrete(0.1, 1.0, 0.0, 2.0, filter_type="none"), "say kd=0.0",
+    ),
+    "a derivative by default without a filter": (
+        lambda: PIDDiscrete(0.1, filter_type="none"), "say kd=0.0",
+    ),
+    "a start by position": (lambda: PIDDiscrete(0.1, 1.0, 1.0, 1.0, 0.5), "at most 4 arguments"),
+    "the power by position": (lambda: WhiteNoise(0.1, 2.0), "at most 1 arguments"),
+    "by position and by name": (
+        lambda: Multiplexer(2, n_in=3), "'n_in' is called 'n_inputs' here; give one",
+    ),
+    "an argument of another block": (lambda: Gain(1.0, start_time=0), "option 'start_time'"),
+    "an argument of no block": (lambda: Gain(1.0, shape=()), "unknown option 'shape'"),
+    "a type of a block of one's own": (
+        lambda: saltus.LeafSystem("own", dtype=float), "unknown option 'dtype'",
     ),
     "too many numbers": (lambda: Integrator(0.0, False, True), "give the others by name"),
 }  # fmt: skip

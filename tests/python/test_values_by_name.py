@@ -73,6 +73,9 @@ def test_names_are_those_of_a_sweep():
         ({"i.x": [1.0]}, "expected 2 values, found 1"),
         ({"ball.height": "high"}, "'ball.height': expected numbers, found 'high'"),
         ({"ball.height": np.nan}, "finite"),
+        ({"i.x": [1j, 2.0]}, "'i.x': expected numbers, found"),
+        ({"i.x": np.array([1j, 2.0])}, "'i.x': expected numbers, found"),
+        ({"ball.mode": "on"}, "expected numbers, found 'on'; a mode is given by its number"),
         ({3: 1.0}, "expected names, found 3"),
         ([("ball.height", 1.0)], "expected a dict of names with values"),
     ],
@@ -80,3 +83,8 @@ def test_names_are_those_of_a_sweep():
 def test_what_is_not_there_is_refused(values, words):
     with pytest.raises(saltus.ModelError, match=words):
         world().create_context(values=values)
+
+
+def test_values_in_the_place_of_the_time_are_refused():
+    with pytest.raises(saltus.ModelError, match=r"give it as values=\{...\}"):
+        world().create_context({"ball.height": 1.0})

@@ -11,7 +11,8 @@ import numpy as np
 
 from saltus import _core
 from saltus._engine import core_context, core_options, needs_interpreter
-from saltus._signals import port_of
+from saltus._quantities import Quantity
+from saltus._signals import port_of, quantities_of
 from saltus._status import WELL
 from saltus.callbacks import Callbacks, planned
 from saltus.ensemble.columns import Columns, failed
@@ -166,7 +167,7 @@ class Job:
 
     def _run(self, system: System, values: Values, threads: int, watch: Watch | None) -> Outcome:
         ensemble = self.ensemble(system, values)
-        reduced = _Reduced(self.reduce)
+        reduced = _Reduced(self.reduce, quantities_of(system, self.signals))
         each = None if self.reduce is None else reduced
         columns, raised = ensemble.run(threads, list(self.options.save_at), watch, each)
         columns["reduced"] = reduced.values
@@ -191,8 +192,12 @@ class Job:
 class _Reduced:
     """Calls `reduce` for each run that ended well, and notes the runs for which it raised."""
 
-    def __init__(self, reduce: Callable[[Results], Any] | None):
-        self.reduce = reduce
+    def __init__(
+        self,
+        reduce: Callable[[Results], Any] | None,
+        quantities: Callable[[], dict[str, Quantity]],
+    ):
+        self.reduce, self.quantities = reduce, quantities
         self.values: dict[int, Any] = {}
         self.errors: dict[int, str] = {}
 
@@ -200,7 +205,7 @@ class _Reduced:
         if core.status not in WELL or self.reduce is None:
             return
         try:
-            self.values[run] = self.reduce(Results(core, raised))
+            self.values[run] = self.reduce(Results(core, raised, None, self.quantities))
         except Exception as error:
             self.errors[run] = f"reduce: {said(error)}"
 

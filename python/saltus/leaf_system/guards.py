@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus._declarations import EVERYTHING, RequiresInputs, callback_of, direction_of, inputs_of
 from saltus._porting import refusing
-from saltus._quantities import Declared, mode_of
+from saltus._quantities import Declared, mode_of, on_zeno_of
 from saltus._whole import is_whole
 from saltus.leaf_system.derivatives import columns_of
 
@@ -27,7 +27,7 @@ class DeclaresGuards(_core.LeafSystem):
 
     __slots__ = ()
 
-    _declared: Declared
+    _declared_quantities: Declared
 
     @refusing
     def declare_zero_crossing(
@@ -67,7 +67,7 @@ class DeclaresGuards(_core.LeafSystem):
           'negative_then_non_negative' ('rising'), 'edge_detection' (any change, for values that
           jump) or 'none' (never).
         - With `start_mode` the guard is seen in that mode only; `end_mode` is the mode after the
-          event.
+          event. A mode is an integer, or its name, if `declare_default_mode` was given names before.
         - `terminal` ends the run after the reset map; with `max_count` n, when the event happens
           the n-th time.
         - `size` n is n guards in one: the guard returns n numbers, each fires on its own, and in
@@ -79,7 +79,7 @@ class DeclaresGuards(_core.LeafSystem):
           is a SimulationError.
         - `on_zeno` decides how the block continues where events accumulate. 'hold': the state rests
           at the accumulation state until the guard moves to its armed side. 'stop': the run ends,
-          status 'zeno_stop'. 'error': a SimulationError. An integer: the mode to go on in.
+          status 'zeno_stop'. 'error': a SimulationError. A mode: the one to go on in.
         - `holds` lists, for each of the `size` guards, the positions in the continuous state that
           rest on a hold, such as [[0, 1], [2, 3]], or [0, 1] for a single guard. Without it those
           rest that the reset map changes and those that the guard reads, or all where a function is
@@ -138,13 +138,13 @@ class DeclaresGuards(_core.LeafSystem):
         what = f"block '{self.name}': zero crossing '{name or ''}'"
         options = {
             "direction": direction_of(direction),
-            "start_mode": mode_of(what, start_mode, self._declared.modes),
-            "end_mode": mode_of(what, end_mode, self._declared.modes),
+            "start_mode": mode_of(what, start_mode, self._declared_quantities.modes),
+            "end_mode": mode_of(what, end_mode, self._declared_quantities.modes),
             "terminal": terminal,
             "max_count": max_count,
             "size": size,
             "at_start": at_start,
-            "on_zeno": on_zeno,
+            "on_zeno": on_zeno_of(what, on_zeno, self._declared_quantities.modes),
             "zeno_tolerance": zeno_tolerance,
             "holds": _for_each_guard(holds, size),
             "formula": bool(formula),
@@ -262,9 +262,10 @@ class DeclaresGuards(_core.LeafSystem):
         >>> end.discrete_state
         array([4.])
         """
+        what = f"block '{self.name}': edge reset '{name or ''}'"
         options = {
             "edge": edge,
-            "on_zeno": on_zeno,
+            "on_zeno": on_zeno_of(what, on_zeno, self._declared_quantities.modes),
             "zeno_tolerance": zeno_tolerance,
             "inputs": inputs_of(requires_inputs),
         }

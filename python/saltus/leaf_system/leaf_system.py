@@ -126,12 +126,12 @@ class LeafSystem(
 
     __slots__ = (
         "_callbacks",
-        "_declared",
+        "_declared_quantities",
         "_made",
     )  # not in __dict__, which is watched for traced functions
 
     @refusing
     def __init__(self, name: str | None = None):
         super().__init__(name or _core.next_name(type(self).__name__))
-        self._declared = Declared()
+        self._declared_quantities = Declared()
         self._made = True  # earlier, a declaration would find no block

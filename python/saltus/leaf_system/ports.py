@@ -49,7 +49,7 @@ class DeclaresPorts(_core.LeafSystem):
 
     __slots__ = ()
 
-    _declared: Declared
+    _declared_quantities: Declared
 
     @refusing
     def declare_input_port(
@@ -155,7 +155,7 @@ class DeclaresPorts(_core.LeafSystem):
         its position.
         """
         output = super().declare_continuous_state_output(name or "")
-        self._declared.whole += (output,)
+        self._declared_quantities.whole += (output,)
         return output
 
     @refusing
@@ -170,5 +170,5 @@ class DeclaresPorts(_core.LeafSystem):
     def declare_mode_output(self, name: str | None = None) -> int:
         """Declares an output that shows the mode. Returns its position."""
         output = super().declare_mode_output(name or "")
-        self._declared.mode += (output,)
+        self._declared_quantities.mode += (output,)
         return output

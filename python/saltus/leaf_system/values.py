@@ -31,7 +31,7 @@ class DeclaresValues(_core.LeafSystem):
 
     __slots__ = ()
 
-    _declared: Declared
+    _declared_quantities: Declared
 
     @refusing
     def declare_continuous_state(
@@ -99,8 +99,8 @@ class DeclaresValues(_core.LeafSystem):
                 "derivatives of ode",
             ),
         )
-        self._declared.units = checked
-        self._declared.states = tuple(self.output_names.index(name) for name in labels)
+        self._declared_quantities.units = checked
+        self._declared_quantities.states = tuple(self.output_names.index(name) for name in labels)
 
     @refusing
     def declare_discrete_state(
@@ -122,11 +122,12 @@ class DeclaresValues(_core.LeafSystem):
 
         `names` names the modes 0, 1, ...: ``declare_default_mode("off", names=["off", "on"])``. Then
         `start_mode` and `end_mode` may be names, and pictures show them. `state.mode` is the number.
+        A later call without `names`, for example in a subclass, keeps the names.
         """
         what = f"block '{self.name}': default mode"
-        labels = mode_names(what, names)
+        labels = mode_names(what, names) or self._declared_quantities.modes
         super().declare_default_mode(mode_of(what, mode, labels))
-        self._declared.modes = labels
+        self._declared_quantities.modes = labels
 
     @refusing
     def declare_dynamic_parameter(self, name: str, default_value: ArrayLike | Parameter) -> None:

@@ -264,9 +264,9 @@ class PIDDiscrete(Block, _core.PIDDiscrete):
         kp: float = 1.0,
         ki: float = 0.0,
         kd: float = 0.0,
+        *,  # in other tools the next one is the state at the start
         n: float = 100.0,
         initial_state: float = 0.0,
-        *,
         lower_limit: float | None = None,
         upper_limit: float | None = None,
         name: str | None = None,

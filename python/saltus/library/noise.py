@@ -103,9 +103,9 @@ class WhiteNoise(Block, _core.WhiteNoise):
     def __init__(
         self,
         dt: float,
+        *,  # in other tools the second number is divided by dt, and the third one is no seed
         power: ArrayLike = 1.0,
         seed: float = 0.0,
-        *,
         name: str | None = None,
     ):
         super().__init__(self._named(name), dt, power, seed)

@@ -5,7 +5,7 @@ Imported when a block is given an argument that it does not have, not before.
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from typing import Any
 
 import numpy as np
@@ -45,22 +45,40 @@ CALLED = {
 """block -> its argument there -> the same here"""
 
 LIMIT = "limit the signal by a MinMax block with the limit as an input"
-OFF: dict[str, tuple[tuple[Any, ...], str]] = {
-    "denominator_limit": ((None,), "keep the denominator from zero by a Saturate block"),
-    "divide_by_zero_behavior": ((None,), "a quotient by zero is infinite, and ends a run"),
-    "dtype": ((None, float, "float64", np.float64), "every value is a double; leave it out"),
-    "enable_dynamic_lower_limit": ((False,), LIMIT),
-    "enable_dynamic_upper_limit": ((False,), LIMIT),
-    "enable_external_inertia_matrix": ((False,), "a rigid body has a constant inertia here"),
-    "enable_external_initial_state": ((False,), "give the number initial_state"),
-    "enable_external_mass": ((False,), "a rigid body has a constant mass here"),
-    "enable_output_state_derivatives": ((False,), "compute them from its inputs"),
-    "parameters": ((None, {}), "parameters belong to a LeafSystem of your own"),
-    "shape": ((None, ()), "give an argument of this shape, such as mean=[0.0, 0.0]"),
-    "start_time": ((0, None), "add an Offset behind it"),
-    "ui_id": ((None,), "leave it out"),
-}
-"""argument -> values with which it means nothing, and what to do for others"""
+LIMITED = "RateLimiter Saturate"
+OFF: dict[str, tuple[str, tuple[Any, ...], str]] = {
+    "denominator_limit": ("Product", (None,), "keep the denominator from zero by a Saturate block"),
+    "divide_by_zero_behavior": (
+        "Product", (None,), "a quotient by zero is infinite, and ends a run",
+    ),
+    "dtype": (
+        "Clock DiscreteClock Integrator IntegratorDiscrete RandomNumber WhiteNoise",
+        (None, float, "float64", np.float64, np.dtype(float)),
+        "every value is a double; leave it out",
+    ),
+    "enable_dynamic_lower_limit": (LIMITED, (False,), LIMIT),
+    "enable_dynamic_upper_limit": (LIMITED, (False,), LIMIT),
+    "enable_external_inertia_matrix": (
+        "RigidBody", (False,), "a rigid body has a constant inertia here",
+    ),
+    "enable_external_initial_state": (
+        "PID PIDDiscrete", (False,), "give the number initial_state",
+    ),
+    "enable_external_mass": ("RigidBody", (False,), "a rigid body has a constant mass here"),
+    "enable_output_state_derivatives": ("RigidBody", (False,), "compute them from its inputs"),
+    "parameters": (
+        "FunctionBlock ReduceBlock", (None, {}), "parameters belong to a LeafSystem of your own",
+    ),
+    "shape": (
+        "RandomNumber WhiteNoise", (None, ()),
+        "give an argument of this shape, such as mean=[0.0, 0.0]",
+    ),
+    "start_time": ("DiscreteClock", (0, 0.0, None), "add an Offset behind it"),
+    "ui_id": ("", (None,), "leave it out"),
+}  # fmt: skip
+"""argument -> the blocks that have it there, '' for all; values with which it means nothing; what
+to do for others
+"""
 GONE = {
     "Comparator": dict.fromkeys(
         ("atol", "rtol"), "a comparison is exact; compare the Abs of a difference with a number"
@@ -86,7 +104,6 @@ GONE = {
 }  # fmt: skip
 """block -> its argument there that has no counterpart -> what to do"""
 
-
 ANYWAY = [
     ("LookupTable2d", "interpolation", "linear"),
     ("MatrixMultiplication", "n_in", 2),
@@ -96,8 +113,12 @@ ANYWAY = [
 """block, argument and the only value that it has here"""
 
 
-def as_here(block: str, options: dict[str, Any], known: Collection[str]) -> dict[str, Any]:
+def as_here(
+    block: str, options: dict[str, Any], known: Collection[str], placed: Mapping[str, Any]
+) -> dict[str, Any]:
     """The arguments of a block by their names here; those that no tool has stay as they are.
+
+    `placed` are the arguments that are given by position.
 
     Raises
     ------
@@ -105,46 +126,75 @@ def as_here(block: str, options: dict[str, Any], known: Collection[str]) -> dict
         For an argument that means something there and has no counterpart; the message says what to
         do. For one that is given by both names.
     """
-    options = _plain(block, options)
+    options = _filtered(block, _plain(block, options), placed)
     found: dict[str, Any] = {}
     for name, value in options.items():
+        here = CALLED.get(block, {}).get(name)
         if name in known:
             found[name] = value
-            continue
-        advice = GONE.get(block, {}).get(name)
-        if advice is not None:
-            raise BlockParameterError(f"{block}: no option '{name}': {advice}")
-        here = CALLED.get(block, {}).get(name)
-        if here is None and name in OFF:
-            values, advice = OFF[name]
-            if not any(value is v or (type(value) is type(v) and value == v) for v in values):
-                raise BlockParameterError(f"{block}: {name} = {value!r}: {advice}")
-        elif here is None:
-            found[name] = value  # which is refused
-        elif options.get(here) is not None:
-            raise BlockParameterError(
-                f"{block}: '{name}' is called '{here}' here; give one of them"
-            )
-        else:
+        elif name in GONE.get(block, {}):
+            raise BlockParameterError(f"{block}: no option '{name}': {GONE[block][name]}")
+        elif here is not None:
+            if options.get(here) is not None or here in placed:
+                raise BlockParameterError(
+                    f"{block}: '{name}' is called '{here}' here; give one of them"
+                )
             found[here] = value
+        elif not _means_nothing(block, name, value):
+            found[name] = value  # which is refused
     return found
 
 
-def _plain(block: str, options: dict[str, Any]) -> dict[str, Any]:
-    """The options without those that say what a block is here anyway; the filter of a sampled
-    derivative is the backward one here.
+def _means_nothing(block: str, name: str, value: Any) -> bool:
+    """Whether a block has the argument there, with a value that changes nothing; BlockParameterError
+    for another value.
     """
+    blocks, values, advice = OFF.get(name, ("-", (), ""))
+    if blocks and block not in blocks.split():
+        return False
+    if not any(_same(value, v) for v in values):
+        raise BlockParameterError(f"{block}: {name} = {value!r}: {advice}")
+    return True
+
+
+def _same(value: Any, other: Any) -> bool:
+    return value is other or (type(value) is type(other) and bool(value == other))
+
+
+def _plain(block: str, options: dict[str, Any]) -> dict[str, Any]:
+    """The options without those that say what a block is here anyway."""
     for of, name, value in ANYWAY:
-        if block == of and name in options and options[name] == value:
+        if block == of and name in options and _same(options[name], value):
             options = {key: given for key, given in options.items() if key != name}
+    return options
+
+
+def _filtered(block: str, options: dict[str, Any], placed: Mapping[str, Any]) -> dict[str, Any]:
+    """The options without the type of the filter of a sampled derivative: it is the backward one
+    here. A block has other defaults there, so what they concern must be given.
+    """
     if "filter_type" not in options or block not in ("DerivativeDiscrete", "PIDDiscrete"):
         return options
     rest = {name: value for name, value in options.items() if name != "filter_type"}
-    kind = options["filter_type"]
-    if kind == "none" and (block == "DerivativeDiscrete" or not options.get("kd", 0.0)):
+    kind, given = options["filter_type"], {**placed, **rest}
+    if kind == "none" and _without_filter(block, given, placed):
         return {name: value for name, value in rest.items() if name != "filter_coefficient"}
     if kind == "backward":
+        if not given.keys() & {"filter_coefficient", "n"}:
+            raise BlockParameterError(
+                f"{block}: filter_type = 'backward': say filter_coefficient too; "
+                "pycollimator has 1.0 without it"
+            )
         return rest
     raise BlockParameterError(
         f"{block}: filter_type = {kind!r}: the filter is 'backward' here; choose its coefficient"
+        + ("; without a filter say kd=0.0" if block == "PIDDiscrete" else "")
     )
+
+
+def _without_filter(block: str, given: Mapping[str, Any], placed: Mapping[str, Any]) -> bool:
+    """Whether a block has no filter here."""
+    if block == "DerivativeDiscrete":
+        return "filter_coefficient" not in placed
+    kd = given.get("kd")  # 1.0 there if it is left out
+    return isinstance(kd, (int, float)) and kd == 0.0

@@ -95,7 +95,7 @@ class StateMachine(LeafSystem):
     (array([0., 1., 0., 1.]), array([0., 1., 1., 2.]))
     """
 
-    __slots__ = ("_actions", "_first", "_states", "_words")
+    __slots__ = ("_actions", "_arrows", "_first", "_states", "_words")
 
     @refusing
     def __init__(
@@ -146,8 +146,13 @@ class StateMachine(LeafSystem):
                 returns.add(taken.source)
             elif condition.trigger is None:
                 before[taken.source].append(condition)
-        self._declared.modes = self._states
-        self._declared.mode = (self.output_names.index("state"),)
+        place = self._states.index
+        self._arrows = tuple(  # for the picture
+            (event, place(taken.source), place(taken.target))
+            for taken, event in zip(transitions, events, strict=True)
+        )
+        self._declared_quantities.modes = self._states
+        self._declared_quantities.mode = (self.output_names.index("state"),)
 
     @property
     def states(self) -> tuple[str, ...]:

@@ -133,7 +133,8 @@ class _Subsystem(Diagram):
             builder.connect(port.output(), held.input("control"))
             builder.export_output(held.output(), of)
         try:
-            Diagram.__init__(self, builder._core, name, builder._children)
+            shown = [system.output(of) for of in system.output_names]  # held, with their units
+            Diagram.__init__(self, builder._core, name, builder._children, exported=shown)
         except ShapeMismatchError as error:
             _refuse_width(name, initial, error)
             raise

@@ -122,6 +122,8 @@ class Forms:
         save(KeptRun.of(self._core), path, self._kind())
 
     def _kind(self) -> dict[str, Any]:
-        """The entries of the file's header that say which class of results it holds."""
+        """The entries of the file's header that say which class of results it holds, and what its
+        signals show.
+        """
         known = self._whole._quantities
         return {"kind": "Results", "quantities": {name: asdict(one) for name, one in known.items()}}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable
 from copy import deepcopy
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -58,10 +58,10 @@ class Results(Rows, Pictures, Forms):
         core: Record,
         raised: BaseException | None = None,
         asks: Any = None,
-        quantities: Mapping[str, Quantity] = {},
+        quantities: Callable[[], dict[str, Quantity]] = dict,
     ):
         self._core = core
-        self._quantities = dict(quantities)  # what signals show, where their blocks say it
+        self._find_quantities = quantities
         self._asks = asks if core.dense else None  # the system whose outputs dense output calls
         if core.status == "failed" and asks is not None:
             self._explain(core, raised, asks)
@@ -114,6 +114,11 @@ class Results(Rows, Pictures, Forms):
         ('e', 'x[0]')
         """
         return Sensitivities(self._core, self._asks)
+
+    @cached_property
+    def _quantities(self) -> dict[str, Quantity]:
+        """What signals show, where their blocks say it."""
+        return self._find_quantities()
 
     @property
     def units(self) -> dict[str, str | tuple[str, ...]]:

@@ -30,8 +30,9 @@ class Pictures:
 
         A jump is a gap with a hollow marker before and a filled one after it, a Zeno hold is
         shaded, each event of a guard has a tick at the bottom. Where the run kept dense output,
-        curves are drawn from that, else straight from row to row. Labels have the units of states,
-        and an axis that shows a mode its names, where the blocks say them.
+        curves are drawn from that, else straight from row to row. Where the blocks say them, the
+        label of a state has its unit, and an axis that shows nothing but a mode has the names of
+        the modes.
 
         Parameters
         ----------

@@ -51,9 +51,10 @@ def _method(results: Results) -> str:
 
 
 def _unit(results: Results, name: str) -> str:
-    """' [m]', or ' [m, m/s]' of a vector; '' of a signal without a unit."""
+    """' [m]', or ' [m, m/s, -]' of a vector with a plain number; '' of a signal without a unit."""
     units = results.units.get(name, "")
-    return f" [{units if isinstance(units, str) else ', '.join(units)}]" if units else ""
+    entries = (units,) if isinstance(units, str) else units
+    return f" [{', '.join(unit or '-' for unit in entries)}]" if units else ""
 
 
 def _facts(results: Results) -> list[tuple[str, str]]:

@@ -1,4 +1,4 @@
-"""Units of states and names of modes: in results, in pictures, through diagrams, in files."""
+"""Units of states and names of modes: in results, through diagrams, in files."""
 
 import copy
 import pickle
@@ -6,48 +6,9 @@ import pickle
 import numpy as np
 import pytest
 import saltus
-from saltus.library import StateMachine, Transition
+from heated_rooms import Room, house, run
+from saltus.library import Constant, EnabledSubsystem, StateMachine, Transition
 from saltus.scene_files import loads
-
-
-class Room(saltus.LeafSystem):
-    """dT/dt = 30 K/h * mode - (T - 10 °C) / h; the outside wind does not change."""
-
-    def __init__(self, name="room"):
-        super().__init__(name=name)
-        self.declare_continuous_state(
-            [20.0, 1.0], ode=self.flow, names=["temperature", "wind"], units=["°C", "m/s"]
-        )
-        self.declare_default_mode("on", names=["off", "on"])
-        self.declare_mode_output("heater")
-        self.declare_continuous_state_output("all")
-        for name, at, way, before, after in (
-            ("warm", 21.0, "rising", "on", "off"),
-            ("cold", 19.0, "falling", "off", "on"),
-        ):
-            self.declare_zero_crossing(
-                lambda time, state, at=at: state.continuous_state[0] - at,
-                name=name, direction=way, start_mode=before, end_mode=after,
-            )  # fmt: skip
-
-    def flow(self, time, state):
-        return [30.0 * state.mode - (state.continuous_state[0] - 10.0), 0.0]
-
-
-def run(**options):
-    return saltus.simulate(Room(), (0.0, 1.0), **options)
-
-
-def house(depth=1):
-    system = Room()
-    for level in range(depth):
-        builder = saltus.DiagramBuilder()
-        builder.add(system)
-        inner = system.name
-        builder.export_output(f"{inner}.heater", "heater")
-        builder.export_output(f"{inner}.temperature", "temperature")
-        system = builder.build(f"level_{level}")
-    return system
 
 
 def test_a_block_alone_records_the_states_that_have_names():
@@ -72,6 +33,23 @@ def test_modes_by_name_are_those_by_number():
     assert warm[1] - cold[0] == pytest.approx(np.log(21 / 19), abs=1e-5)
 
 
+@pytest.mark.parametrize("rest", ["rests", 1])
+def test_a_mode_by_its_name_after_infinitely_many_resets(rest):
+    """Height 1 m at rest, g = 2 m/s^2 and e = 0.5: it hits at 1 s, and stops bouncing at 3 s."""
+    ball = saltus.LeafSystem(name="ball")
+    ball.declare_continuous_state(
+        [1.0, 0.0], ode=lambda t, s: [s.continuous_state[1], -2.0 * (1 - s.mode)]
+    )
+    ball.declare_default_mode("flies", names=["flies", "rests"])
+    ball.declare_zero_crossing(
+        lambda t, s: s.continuous_state[0],
+        lambda t, s: s.with_continuous_state([0.0, -0.5 * s.continuous_state[1]]),
+        name="hit", direction="falling", start_mode="flies", on_zeno=rest,
+    )  # fmt: skip
+    assert saltus.simulate(ball, (0.0, 2.9)).context.mode == 0
+    assert saltus.simulate(ball, (0.0, 3.1)).context.mode == 1
+
+
 @pytest.mark.parametrize("depth", [1, 2, 3])
 def test_outputs_of_diagrams_show_what_their_blocks_say(depth):
     results = saltus.simulate(house(depth), (0.0, 0.1))
@@ -91,6 +69,24 @@ def test_a_simulator_knows_them_too():
     assert simulator.results.units == {"temperature": "°C", "wind": "m/s"}
 
 
+@pytest.mark.parametrize("system", [Room(), Room])
+def test_the_results_that_a_sweep_reduces_know_them(system):
+    def known(results):
+        return results.units == {"T": "°C"} and results.mode_names == {"h": ("off", "on")}
+
+    signals = {"T": "temperature", "h": "heater"}
+    values = {"temperature": [19.5, 20.5]}
+    found = saltus.sweep(system, values, (0.0, 0.1), recorded_signals=signals, reduce=known)
+    np.testing.assert_array_equal(found["known"], [True, True])
+
+
+def test_a_list_of_signals_may_change_after_the_run():
+    signals = ["temperature"]
+    results = run(recorded_signals=signals)
+    signals[:] = ["heater"]
+    assert results.units == {"temperature": "°C"}
+
+
 def test_they_are_in_files_pickles_and_copies(tmp_path):
     results = run(recorded_signals=["all", "heater"])
     results.save(tmp_path / "room.npz")
@@ -106,33 +102,44 @@ def test_they_are_in_files_pickles_and_copies(tmp_path):
 def test_they_are_in_text_and_tables():
     results = run()
     assert "temperature (" in str(results) and ") [°C], wind" in str(results)
+    part = declare(units=["m", ""])
+    part.declare_continuous_state_output("x")
+    assert "[m, -]" in str(saltus.simulate(part, (0.0, 1.0), recorded_signals=["x"]))
     xarray = pytest.importorskip("xarray")
     assert isinstance(results.to_xarray(), xarray.Dataset)
     assert results.to_xarray()["wind"].attrs == {"units": "m/s"}
 
 
-def test_labels_have_units_and_a_mode_has_its_names_on_the_axis():
-    pytest.importorskip("matplotlib")
-    results = run(recorded_signals=["temperature", "all", "heater"])
-    one, many, mode = results.plot()
-    assert one.get_ylabel() == "temperature [°C]" and many.get_ylabel() == "all"
-    legend = [text.get_text() for text in many.get_legend().get_texts()]
-    assert legend == ["all[0] [°C]", "all[1] [m/s]"]
-    assert [tick.get_text() for tick in mode.get_yticklabels()] == ["off", "on"]
-    portrait = results.plot_phase("temperature", "all[1]")
-    assert (portrait.get_xlabel(), portrait.get_ylabel()) == ("temperature [°C]", "all[1] [m/s]")
+@pytest.mark.parametrize("start", ["off", 0])
+def test_a_subclass_chooses_another_mode_by_the_names_that_there_are(start):
+    class Cold(Room):
+        def __init__(self):
+            super().__init__()
+            self.declare_default_mode(start)
+
+    results = saltus.simulate(Cold(), (0.0, 0.01), recorded_signals=["heater"])
+    assert results["heater"][0] == 0
+    assert results.mode_names == {"heater": ("off", "on")}
 
 
-def test_plotly_has_them_too():
-    pytest.importorskip("plotly")
-    drawn = run(recorded_signals=["temperature", "heater"]).plot(backend="plotly")
-    assert drawn.layout.yaxis.title.text == "temperature [°C]"
-    assert list(drawn.layout.yaxis2.ticktext) == ["off", "on"]
+def test_the_outputs_of_a_system_that_is_executed_have_the_units_of_its_own():
+    builder = saltus.DiagramBuilder()
+    builder.add(EnabledSubsystem(house(), name="house"), Constant(1.0, name="on"))
+    builder.connect("on.out", "house.enable")
+    builder.export_output("house.temperature", "T")
+    builder.export_output("house.heater", "h")
+    results = saltus.simulate(builder.build("street"), (0.0, 0.1))
+    assert results.units == {"T": "°C"}
+    assert results.mode_names == {"h": ("off", "on")}
 
 
-def test_the_picture_of_the_modes_has_their_names():
-    text = Room().to_mermaid("modes")
-    assert 'state "off" as m0' in text and 'state "on" as m1' in text
+@pytest.mark.parametrize("name", ["_declared", "_exported", "_says", "units", "modes"])
+def test_a_block_may_have_attributes_of_any_such_name(name):
+    system = Room()
+    setattr(system, name, 3)
+    system.declare_continuous_state_output("again")
+    results = saltus.simulate(system, (0.0, 0.1), recorded_signals=["temperature", "again"])
+    assert results.units == {"temperature": "°C", "again": ("°C", "m/s")}
 
 
 def test_a_state_machine_names_its_states():
@@ -149,6 +156,12 @@ def test_a_scene_file_says_units_and_modes():
     results = scene.simulate()
     assert results.units == {"way": "m"}
     assert results.mode_names == {"mode": ("rest", "go")}
+
+
+def with_modes(*names):
+    system = saltus.LeafSystem(name="ball")
+    system.declare_default_mode(0, names=names)
+    return system
 
 
 def declare(**given):
@@ -175,6 +188,14 @@ def declare(**given):
         (
             lambda: Room().declare_zero_crossing(lambda t, s: 1.0, name="g", start_mode="of"),
             "zero crossing 'g': unknown mode 'of'; did you mean 'off'",
+        ),
+        (
+            lambda: Room().declare_zero_crossing(lambda t, s: 1.0, name="g", on_zeno="of"),
+            "zero crossing 'g': unknown on_zeno 'of'; did you mean 'off'",
+        ),
+        (
+            lambda: with_modes("hold", "go").declare_edge_reset(len, 0, name="e", on_zeno="hold"),
+            "edge reset 'e': on_zeno: 'hold' is a choice and the name of a mode; .* number, 0",
         ),
         (
             lambda: Room().declare_zero_crossing(lambda t, s: 1.0, name="g", end_mode=2),
@@ -205,15 +226,3 @@ def test_a_damaged_file_is_refused(tmp_path, monkeypatch, damage):
     results.save(tmp_path / "room.npz")
     with pytest.raises(saltus.ModelError, match="damaged"):
         saltus.load(tmp_path / "room.npz")
-
-
-def test_ticks_are_for_guards_and_not_for_clocks():
-    pytest.importorskip("matplotlib")
-    system = Room()
-    system.declare_periodic_update(None, period=0.01, name="clock")
-    results = saltus.simulate(system, (0.0, 1.0))
-    axes = results.plot("temperature")
-    (ticks,) = axes.collections
-    times = sorted(e.time for e in results.events if e.kind == "zero_crossing")
-    assert len(results.events) > 100 > len(times) > 3
-    np.testing.assert_array_equal([s[0][0] for s in ticks.get_segments()], times)

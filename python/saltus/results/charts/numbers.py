@@ -48,7 +48,10 @@ def label_of(results: Results, which: Which) -> str:
 
 def with_unit(results: Results, label: str) -> str:
     """The name of a recorded number with its unit: 'height [m]'."""
-    for name, one in results._quantities.items():
+    known = results._quantities
+    if label in results.outputs:  # a signal may have the name of an entry of another one
+        known = {label: known[label]} if label in known else {}
+    for name, one in known.items():
         labels = entry_names(name, results.outputs[name].shape[1:])
         if any(one.units) and label in labels:
             unit = one.units[labels.index(label)]

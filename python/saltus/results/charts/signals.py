@@ -21,7 +21,7 @@ __all__ = ["chosen", "plot", "wide_jumps"]
 FEW = 60  # the number of jumps with full markers; more markers would cover the curve
 TINY = 0.02  # part of the range of the curve; the markers of a smaller jump would cover each other
 GUARDS = ("zero_crossing", "terminal", "executed")  # kinds of events
-MANY = 400  # the number of events with a tick each
+MANY = 400  # the number of times with a tick each
 Panels = list[tuple[str, list[Curve]]]
 
 
@@ -29,9 +29,10 @@ def plot(results: Results, names: tuple[str, ...], ax: Any, style: dict[str, Any
     """Draws the signals for `Results.plot`."""
     panels = chosen(results, names)
     if ax is not None:
-        curves = [curve for _, group in panels for curve in group]
+        alone = len(panels) == 1 and not ax.has_data()
+        curves = panels[0][1] if len(panels) == 1 else _labelled(results, panels)
         _draw(ax, results, curves, panels[0][0] if len(panels) == 1 else "", style)
-        if len(panels) == 1:
+        if alone:
             _name_modes(ax, results, curves)
         ax.set_xlabel("time [s]")
         return ax
@@ -68,6 +69,12 @@ def titled(results: Results, name: str, curves: list[Curve]) -> tuple[str, list[
     if len(units) == 1:
         return name + units.pop(), curves
     return name, [replace(c, label=label) for label, c in zip(labels, curves, strict=True)]
+
+
+def _labelled(results: Results, panels: Panels) -> list[Curve]:
+    """The curves of several panels for one axes: each label has its unit, which no title says."""
+    curves = [curve for _, group in panels for curve in group]
+    return [replace(curve, label=with_unit(results, curve.label)) for curve in curves]
 
 
 def _name_modes(ax: Any, results: Results, curves: list[Curve]) -> None:
@@ -121,10 +128,16 @@ def _mark_jumps(ax: Any, curve: Curve, line: Any) -> None:
     ax.plot(*curve.after[wide].T, **shared, markerfacecolor=color, markeredgewidth=0.0, zorder=3)
 
 
+def _firings(results: Results) -> list[float]:
+    """The times at which guards fired."""
+    log = results.events
+    return sorted({event.time for event in log if event.kind in GUARDS})
+
+
 def _mark_events(ax: Any, results: Results) -> None:
     """A tick at the bottom for each event of a guard; ticks of clocks would hide them."""
-    if not 0 < len(results.events) <= MANY:
+    times = _firings(results)
+    if not 0 < len(times) <= MANY:
         return
-    times = sorted({event.time for event in results.events if event.kind in GUARDS})
     across = ax.get_xaxis_transform()  # x in seconds, y in parts of the axes
     ax.vlines(times, 0.0, 0.03, transform=across, color="0.35", linewidth=0.8, zorder=1)
