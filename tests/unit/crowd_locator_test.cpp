@@ -242,6 +242,6 @@ TEST_CASE("many monitors cost as many looks as one, and few are located one by o
                     {.ode_solver_method = Method::dopri5, .first_step = 1.0})
         .statistics.guard_calls;
   };
-  CHECK(looks(1) < 16);     // a line is located by two looks; four more begin a run
+  CHECK(looks(1) < 18);     // a line is located by two looks; seven more begin a run
   CHECK(looks(400) < 100);  // eleven a piece
 }
