@@ -6,7 +6,6 @@ have the outputs of diagrams around it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -146,7 +145,7 @@ def _texts(what: str, key: str, values: Any, example: str) -> tuple[str, ...]:
     return tuple(values)
 
 
-def named_states(system: Any) -> Iterator[int]:
+def named_states(system: Any) -> tuple[int, ...]:
     """The outputs of a block that show states by name."""
-    declared = getattr(system, "_declared_quantities", None)
-    return iter(() if declared is None else declared.states)
+    declared: Declared | None = getattr(system, "_declared_quantities", None)
+    return () if declared is None else declared.states

@@ -1,3 +1,4 @@
+// The eigenvalues of a matrix, by Eigen.
 #include "saltus/base/detail/eigenvalues.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -1,3 +1,4 @@
+// The derivatives of what a pass calls: declared, or differences of the call.
 #include "saltus/simulation/detail/called_tangents.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Guards at zero: beside the cause of an instant, at a firing, and at its end.
 #include "saltus/simulation/detail/guards_at_zero.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The derivatives of held signals.
 #include "saltus/simulation/detail/held_tangents.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The time of an instant: the first cause, and those that move apart from it.
 #include "saltus/simulation/detail/instant_time.hpp"
 
 #include <cmath>

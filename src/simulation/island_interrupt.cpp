@@ -1,3 +1,4 @@
+// Islands ask the user whether the run goes on.
 #include "saltus/simulation/detail/island_interrupt.hpp"
 
 #include "saltus/base/detail/forced_unwind.hpp"

@@ -1,3 +1,4 @@
+// What a relation at zero decides, by the flow and the guards with its other truth.
 #include "saltus/simulation/detail/other_truth.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Kinks of the flow at which the state rests.
 #include "saltus/simulation/detail/resting_kinks.hpp"
 
 namespace saltus {

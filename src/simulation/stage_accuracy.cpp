@@ -1,3 +1,4 @@
+// The error of S in a step beside that of the states.
 #include "saltus/simulation/detail/stage_accuracy.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The last step that was carried through stages, and S inside of it.
 #include "saltus/simulation/detail/stage_step.hpp"
 
 #include <vector>

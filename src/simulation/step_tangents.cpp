@@ -1,3 +1,4 @@
+// S along a step: through its stages, or by collocation.
 #include "saltus/simulation/detail/step_tangents.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The columns with which a run begins, by the names of the option.
 #include "saltus/simulation/detail/tangent_start.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// What waits: added, taken, and compared with what is due beside it.
 #include "saltus/simulation/detail/waiting_tangents.hpp"
 
 #include <algorithm>

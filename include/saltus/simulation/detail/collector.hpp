@@ -30,8 +30,6 @@ class Collector {
   bool take_contacts();
   /// Flips the relations that fired. True if there is one.
   bool flip_relations();
-  /// Whether the guard of a firing is a zero crossing; otherwise it is that of a relation.
-  bool is_crossing(const Firing& firing) const;
   /// Whether a zero crossing that fired jumped at its root.
   bool some_jumped() const;
   /// Removes those of them that came back when the relations of the same root flipped.
@@ -46,6 +44,8 @@ class Collector {
   void note_passive();
 
  private:
+  /// Whether the guard of a firing is a zero crossing; otherwise it is that of a relation.
+  bool is_crossing(const Firing& firing) const;
   bool acts(const Action& action) const;
   bool has_jumped(const Firing& firing) const;
   void collect_carried(std::size_t e);

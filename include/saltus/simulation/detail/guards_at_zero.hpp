@@ -13,7 +13,7 @@
 namespace saltus {
 
 /// Finds the parameters for which an event exists, or comes first, on one side only. It changes no
-/// guard, and no column but those that it loses.
+/// guard. Of the columns it changes only those whose derivative it finds to be lost.
 class GuardsAtZero {
  public:
   /// The guards and the columns stay with their owners.

@@ -9,8 +9,8 @@
 
 namespace saltus {
 
-/// Divides a context among the islands and puts theirs together. A block of several islands has its
-/// values in the one that owns it; the others have copies.
+/// Divides a context among the islands, and puts the contexts of the islands together. A block that belongs to
+/// several islands is owned by one of them, whose values count; the other islands have copies.
 class IslandContexts {
  public:
   /// An island is added by `add`, in order.

@@ -7,8 +7,8 @@
 
 namespace saltus {
 
-/// A monitor changes nothing, so its crossings are logged where the solver found them. One that jumped at the
-/// root of a relation may come back when that relation flips: it is judged then.
+/// A monitor changes nothing, so its crossings are logged where the solver found them. A monitor that jumped at the
+/// root of a relation may come back when the relation flips: the instant judges it then.
 class MonitorLog {
  public:
   explicit MonitorLog(InstantParts& parts) : parts_(&parts) {}
@@ -18,7 +18,7 @@ class MonitorLog {
   bool judges(const MonitorHit& hit, double t, const std::vector<Firing>& roots) const;
   /// Whether the present instant has to judge some crossing.
   bool judges_any() const;
-  /// Logs those that did not come back. `flipped`: a relation has.
+  /// Logs these crossings, but not where the monitor came back. `flipped`: a relation has flipped.
   void judge(bool flipped);
   /// Logs a crossing, at the state x.
   void log(const MonitorHit& hit, const double* x);

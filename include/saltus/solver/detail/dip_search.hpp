@@ -45,7 +45,8 @@ class DipSearch : protected CrowdLocator {
   double first_crossed(double& from, double to, const Interpolate& interpolate) {
     if (!may_go_back_ || !scans()) return to;
     const double dip = find_dip(from, to, from, interpolate);
-    if (!(dip < from && note_crossed(middle_) && fires_first_at_dip())) {
+    if (!(dip < from)) return to;
+    if (!note_crossed(middle_) || !fires_first_at_dip()) {
       note_crossed(high_);
       return to;
     }

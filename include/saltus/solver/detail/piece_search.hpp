@@ -111,10 +111,10 @@ class PieceSearch : protected FoundRoot {
       if (find_to(next, from, interpolate)) return true;
     }
     copy_values(at_root_, high_);
-    if (from < root.low && may_cross_before(from, root.high, noted, interpolate) &&
-        find_to(root.low, from, interpolate))
-      return true;
-    copy_values(at_root_, high_);
+    if (from < root.low && may_cross_before(from, root.high, noted, interpolate)) {
+      if (find_to(root.low, from, interpolate)) return true;
+      copy_values(at_root_, high_);
+    }
     if (!note_crossed(high_)) crossed_.clear();  // a monitor was found one rounding before it
     return false;
   }

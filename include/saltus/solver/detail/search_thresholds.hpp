@@ -122,9 +122,6 @@ inline constexpr double seen_growth = 2.0;
 /// follows the time, with one state: many roundings of the time, and a small part of the way to a time
 /// at which that state would be impossible. tests/laws/timed_guards_test.cpp
 inline constexpr double times_apart = 1.0 / 64.0;
-/// [of a piece] The middle one of three points at which a state moves on a line; the golden ratio less 1, so
-/// that no sine of a short period has the same value at all three. tests/unit/line_states_test.cpp
-inline constexpr double line_share = 0.6180339887498949;
 /// [eps of the largest value] that the sum of a step and its interpolant, or a guard, may be off by where they
 /// are on a line. tests/unit/line_states_test.cpp
 inline constexpr double line_roundings = 64.0;
@@ -134,6 +131,9 @@ inline constexpr double line_moves = 64.0;
 /// [pieces] The second of the three looks that begin a run: the golden ratio, which is far from
 /// each ratio of small numbers. tests/laws/fast_guards_test.cpp
 inline constexpr double golden_ratio = 1.6180339887498949;
+/// [of a piece] The middle one of three points at which a state moves on a line, so that no sine of a short
+/// period has the same value at all three. tests/unit/line_states_test.cpp
+inline constexpr double line_share = golden_ratio - 1.0;
 /// [of the time since a guard crossed] How far apart looks may be where a guard follows the time: four of them
 /// are in a time half as long, in which it may be fast again. tests/laws/modulated_guards_test.cpp
 inline constexpr double slow_time = 1.0 / 8.0;
