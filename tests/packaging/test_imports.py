@@ -54,15 +54,16 @@ LATE = {
         "saltus.results.outside",
     ): "explains a failure, which most runs lack",
     ("saltus.results.outcome", "saltus.results.text"): "prints, which most runs do not",
-    ("saltus.results.pictures", "saltus.results.animation"): "loads films",
+    ("saltus.results.event_pictures", "saltus.results.charts"): "loads matplotlib",
+    ("saltus.results.films", "saltus.results.animation"): "loads films",
+    ("saltus.results.films", "saltus.viewing"): "loads pages",
     ("saltus.results.pictures", "saltus.results.charts"): "loads matplotlib",
-    ("saltus.results.pictures", "saltus.viewing"): "loads pages",
     ("saltus.viewing.view", "saltus.drawings.of_scene"): "loads matplotlib",
     ("saltus._porting", "saltus.library.ported"): "wanted for arguments of other tools only",
-    ("saltus.system", "saltus._evaluate"): "reads contexts, which are those of systems",
-    ("saltus.system", "saltus._picture"): "loads subprocess, for Graphviz",
-    ("saltus.system", "saltus._tree"): "reads the blocks of a diagram, which is a system",
-    ("saltus.system", "saltus._start_values"): "most contexts have the values of their system",
+    ("saltus.system.system", "saltus._evaluate"): "reads contexts, which are those of systems",
+    ("saltus.system.drawn", "saltus._picture"): "loads subprocess, for Graphviz",
+    ("saltus.system.drawn", "saltus._tree"): "reads the blocks of a diagram, which is a system",
+    ("saltus.system.system", "saltus._start_values"): "most contexts have the usual values",
 }
 """(module, what a function of it imports) -> why this waits until the function is called"""
 ROOMS = {
