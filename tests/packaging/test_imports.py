@@ -32,7 +32,7 @@ LATE = {
     ("saltus.diagram.builder", "saltus.parameters.shared"): "most diagrams have no parameters",
     ("saltus.parameter", "saltus.tracing.numbers"): "most diagrams have no parameters",
     ("saltus.ports", "saltus._evaluate"): "a system has ports, and these are evaluated with it",
-    ("saltus.linearization", "saltus._step"): "step responses, which most scripts leave alone",
+    ("saltus.linearization.linear", "saltus.linearization.step"): "step responses, rarely wanted",
     ("saltus.cli.view_scene", "saltus.drawings.of_scene"): "loads films, as other commands do not",
     ("saltus.cli.view_scene", "saltus.results.tables"): "advice for a missing library",
     ("saltus.cli.view_scene", "saltus.simulation.simulate"): "other commands run nothing",
