@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "saltus/base/ids.hpp"
 #include "saltus/base/list.hpp"
 
 namespace saltus {
