@@ -25,7 +25,7 @@ bool reads_states(const PlanLeaf& leaf) {
 }  // namespace
 
 Machine::Machine(std::shared_ptr<const Plan> plan)
-    : Memory(std::move(plan)),
+    : CarriedMemory(std::move(plan)),
       arguments_(*this),
       calls_(*plan_, arguments_.views()),
       looked_(calls_.guard_needs.size(), 0),

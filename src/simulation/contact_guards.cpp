@@ -150,8 +150,8 @@ bool ContactGuards::place(SurfaceContact& contact) {
   const double t = present_->t;
   double* x = machine_->x.data();
   contacts_.find_place(contact, t, x);
-  const bool placed =
-      transition_->wrote_x(group_of(contact.guard())) && contacts_.settle_on_surface(contact, t, x);
+  const bool placed = transition_->writes().of(group_of(contact.guard())) > 0 &&
+                      contacts_.settle_on_surface(contact, t, x);
   present_->outcome.restart = present_->outcome.restart || placed;
   contacts_.choose_look_ahead(contact, t, x, present_->longest);
   return placed;

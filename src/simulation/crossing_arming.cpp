@@ -40,7 +40,7 @@ CrossingFacts CrossingArming::facts_of(std::size_t k, bool at_start) const {
           .came_from = guard.came_from,
           .effect = crossing.has_effect(),
           .reset = static_cast<bool>(crossing.reset_map),
-          .resets = transition_->effects(group),
+          .resets = transition_->writes().of(group),
           .jumped = now.jumped()};
 }
 
@@ -63,15 +63,15 @@ struct CrossingArming::Ask {
   /// from above: a slope that is lost in its rounding is no reason to rest.
   bool too_low() const {
     const double flight = arming->present_->now(k).flight;
-    if (std::isnan(flight) || !arming->transition_->wrote_x(*group)) return false;
+    if (std::isnan(flight) || arming->transition_->writes().of(*group) == 0) return false;
     return flow().speed_from(before(), *group, slot(), flight) * flight <= 4.0 * error;
   }
   bool leads_back() const {
-    return arming->transition_->wrote_x(*group) &&
+    return arming->transition_->writes().of(*group) > 0 &&
            flow().leads_back(*group, slot(), from, before());
   }
   bool stops_at_jump() const {
-    return arming->transition_->wrote_x(*group) &&
+    return arming->transition_->writes().of(*group) > 0 &&
            flow().stops_at_jump(*group, slot(), from, before());
   }
   /// The execution of a queued guard is not at hand: it may come later, or have come already.

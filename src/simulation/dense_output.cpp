@@ -9,7 +9,7 @@ namespace saltus {
 namespace {
 
 const Trajectory& required(const Trajectory& trajectory) {
-  trajectory.require_kept();
+  require_kept(trajectory);
   return trajectory;
 }
 
@@ -32,7 +32,7 @@ struct DenseOutput::Reader {
 
   bool has_parts() const { return !whole.parts().empty(); }
   void move_to(double t, Side side) {
-    whole.require_inside(t);
+    require_inside(whole, t);
     for (std::size_t k = 0; k < readers.size(); ++k) {
       readers[k]->move_to(t, side);
       if (!has_parts()) continue;

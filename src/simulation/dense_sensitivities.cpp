@@ -75,7 +75,7 @@ struct DenseSensitivities::Reader {
   }
 
   void move_to(double t, Side side) {
-    whole.require_inside(t);
+    require_inside(whole, t);
     for (const auto& island : islands) {
       island->reader.move_to(t, side);
       copy(*island);
@@ -105,7 +105,7 @@ struct DenseSensitivities::Reader {
 namespace {
 
 const Trajectory& kept(const Trajectory& trajectory, const Sensitivities& sensitivities) {
-  trajectory.require_kept();
+  require_kept(trajectory);
   if (sensitivities.trajectory.empty())
     throw ModelError("this run has no derivatives; ask for them with the option sensitivity");
   return trajectory;

@@ -108,21 +108,6 @@ void Holds::release(Hold& hold) {
                   .entry = hold.entry});
 }
 
-namespace {
-
-/// Some entries of x: in place where they are a part of `all`, as for a whole leaf, otherwise in `room`.
-Eigen::Ref<const Eigen::VectorXd> gather(std::span<const Index> entries, const Index* all,
-                                         const Eigen::VectorXd& x, Eigen::VectorXd& room) {
-  const auto size = static_cast<Index>(entries.size());
-  const Index first = size > 0 ? entries.front() : 0;
-  if (entries.data() == all + first) return x.segment(first, size);
-  room.resize(size);
-  for (Index i = 0; i < size; ++i) room[i] = x[entries[static_cast<std::size_t>(i)]];
-  return room;
-}
-
-}  // namespace
-
 /// Whether the reset has left a guard of the hold at zero, within the tolerance of the run. If the
 /// guard is clearly off zero, nothing has come to rest, however short and shrinking the gaps are
 /// (4.2). The value of a guard that jumps, or that is not finite, says nothing about that.
@@ -154,13 +139,13 @@ bool Holds::look_for_accumulation(Hold& hold) {
   Eigen::VectorXd& next = transition_->next();
   if (!accumulates(hold)) {
     if (Tangents* tangents = transition_->tangents()) tangents->remember(&hold, hold.states, next);
-    changing(hold).remember(gather(hold.states, states_.data(), next, gathered_));
+    changing(hold).remember(parts_.gather(hold.states, next, gathered_));
     double& horizon = present_->outcome.horizon;
     if (const double gap = hold.monitor.gap(); std::isfinite(gap))
       horizon = std::min(horizon, std::max(thresholds::next_gap * gap, present_->least_time()));
     return false;
   }
-  gathered_ = gather(hold.states, states_.data(), next, gathered_);
+  gathered_ = parts_.gather(hold.states, next, gathered_);
   if (Tangents* tangents = transition_->tangents()) tangents->accumulate(&hold, hold.states, next);
   hold.monitor.accumulate(gathered_);
   for (std::size_t i = 0; i < hold.states.size(); ++i)

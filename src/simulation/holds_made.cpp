@@ -1,5 +1,4 @@
 // Holds: what each of them can stop, from the plan.
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -16,16 +15,10 @@ Holds::Holds(Machine& machine, const GuardSet& guards, const SimulatorOptions& o
       transition_(&transition),
       journal_(&journal),
       present_(&present),
-      states_(machine.plan().nx) {
-  std::iota(states_.begin(), states_.end(), Index{0});
+      parts_(machine.plan()) {
   add_guards(guards);
   add_edges();
   changed_.reserve(of_guards_.size() + of_edges_.size());
-}
-
-std::span<const Index> Holds::whole(const PlanLeaf& leaf) const {
-  const Index* first = states_.data() + leaf.x;
-  return {first, first + leaf.nx};
 }
 
 void Holds::add_guards(const GuardSet& guards) {
@@ -43,27 +36,21 @@ void Holds::add_guards(const GuardSet& guards) {
             .entry = guard.entry,
             .on_zeno = crossing.on_zeno,
             .groups = {guard.group},
-            .of_plan = whole(leaf)};
+            .of_plan = parts_.whole(leaf)};
     if (!crossing.holds.empty())
-      hold.of_plan = choose(leaf, nth(crossing.holds, guard.entry));
+      hold.of_plan = parts_.choose(leaf, nth(crossing.holds, guard.entry));
     else if (crossing.touches && !steers(crossing, group.leaf))
-      hold.of_plan = choose(leaf, crossing.touches->of_guard(guard.entry));
+      hold.of_plan = parts_.choose(leaf, crossing.touches->of_guard(guard.entry));
   }
-}
-
-std::span<const Index> Holds::choose(const PlanLeaf& leaf, const std::vector<int>& entries) {
-  std::vector<Index>& chosen = chosen_.emplace_back();
-  for (const int i : entries) chosen.push_back(leaf.x + i);
-  return chosen;
 }
 
 /// Whether an effect writes a discrete state or a mode that derivatives read: it acts on the flow
 /// of all states of its leaf (4.4).
 bool Holds::steers(const ZeroCrossing& crossing, int leaf) const {
   const bool mode = crossing.end_mode || crossing.touches->writes_mode;
-  return (mode && transition_->derivatives_read(Reads::mode, leaf)) ||
+  return (mode && derivatives_read(machine_->plan(), Reads::mode, leaf)) ||
          (crossing.touches->writes_discrete_state &&
-          transition_->derivatives_read(Reads::discrete_state, leaf));
+          derivatives_read(machine_->plan(), Reads::discrete_state, leaf));
 }
 
 void Holds::add_edges() {
@@ -82,7 +69,7 @@ void Holds::add_edges() {
          .source = journal_->source_of(Cause::edge, static_cast<int>(e)),
          .on_zeno = reset.on_zeno,
          .groups = std::move(groups),
-         .of_plan = whole(plan.leaf(plan.edges[e].leaf))});
+         .of_plan = parts_.whole(plan.leaf(plan.edges[e].leaf))});
   }
 }
 

@@ -6,6 +6,39 @@
 
 namespace saltus {
 
+namespace {
+
+/// Whether entries increase, and all are among those of a leaf.
+bool are_of(const PlanLeaf& leaf, std::span<const Index> entries) {
+  return entries.empty() ||
+         (std::ranges::adjacent_find(entries, std::greater_equal<>()) == entries.end() &&
+          entries.front() >= leaf.x && entries.back() < leaf.x + leaf.nx);
+}
+
+/// The entries of x that rested in the earlier run, or would have. They may differ from those of
+/// this plan: the earlier run may have known more, or less, of what the effect writes. Contexts of
+/// earlier versions do not say.
+std::span<const Index> states_of(const Holds::Hold& hold, const Continuation::Firings& saved) {
+  return saved.states.empty() ? hold.of_plan : std::span<const Index>(saved.states);
+}
+
+/// A firing that left other states than the hold has, or a hold where nothing can rest, comes from
+/// a damaged context.
+void require_sound(const Plan& plan, const Holds::Hold& hold, const Continuation::Firings& saved) {
+  const std::size_t size = states_of(hold, saved).size();
+  const bool whole = saved.after.empty() || saved.after.size() == size;
+  const bool possible = hold.leaf >= 0
+                            ? are_of(plan.leaf(hold.leaf), saved.states)
+                            : !saved.holding && saved.times.empty() && saved.states.empty();
+  if (whole && possible) return;
+  throw ModelError(text("the continuation of the context is damaged: a guard with ", size,
+                        " states that may rest has ", saved.after.size(),
+                        " states after its last firing",
+                        possible ? "" : ", or others than those of its block"));
+}
+
+}  // namespace
+
 std::vector<Continuation::Firings> Holds::save() const {
   std::vector<Continuation::Firings> firings;
   for (const auto* holds : {&of_guards_, &of_edges_}) {
@@ -22,42 +55,9 @@ bool Holds::fits(const Continuation& from) const {
   if (from.firings.size() != of_guards_.size() + of_edges_.size()) return false;
   auto firings = from.firings.begin();
   for (const auto* holds : {&of_guards_, &of_edges_}) {
-    for (const Hold& hold : *holds) require_sound(hold, *firings++);
+    for (const Hold& hold : *holds) require_sound(machine_->plan(), hold, *firings++);
   }
   return true;
-}
-
-/// The entries of x that rested in the earlier run, or would have. They may differ from those of
-/// this plan: the earlier run may have known more, or less, of what the effect writes. Contexts of
-/// earlier versions do not say.
-std::span<const Index> Holds::states_of(const Hold& hold, const Continuation::Firings& saved) {
-  return saved.states.empty() ? hold.of_plan : std::span<const Index>(saved.states);
-}
-
-namespace {
-
-/// Whether entries increase, and all are among those of a leaf.
-bool are_of(const PlanLeaf& leaf, std::span<const Index> entries) {
-  return entries.empty() ||
-         (std::ranges::adjacent_find(entries, std::greater_equal<>()) == entries.end() &&
-          entries.front() >= leaf.x && entries.back() < leaf.x + leaf.nx);
-}
-
-}  // namespace
-
-/// A firing that left other states than the hold has, or a hold where nothing can rest, comes from
-/// a damaged context.
-void Holds::require_sound(const Hold& hold, const Continuation::Firings& saved) const {
-  const std::size_t size = states_of(hold, saved).size();
-  const bool whole = saved.after.empty() || saved.after.size() == size;
-  const bool possible = hold.leaf >= 0
-                            ? are_of(machine_->plan().leaf(hold.leaf), saved.states)
-                            : !saved.holding && saved.times.empty() && saved.states.empty();
-  if (whole && possible) return;
-  throw ModelError(text("the continuation of the context is damaged: a guard with ", size,
-                        " states that may rest has ", saved.after.size(),
-                        " states after its last firing",
-                        possible ? "" : ", or others than those of its block"));
 }
 
 void Holds::load(const Continuation& from) {

@@ -90,7 +90,7 @@ bool Relations::read(const GuardGroup& group, std::size_t k) {
                             .fired = now.fired,
                             .came_from = (*guards_)[k].came_from,
                             .turned = now.turned,
-                            .wrote = transition_->wrote_x(group)};
+                            .wrote = transition_->writes().of(group) > 0};
   const std::optional<int> by_value = decide_relation(facts);
   const int side = by_value ? side_at_zero(group, k, facts, *by_value)
                             : side_by_flow(group, k, facts.crossed_to());
@@ -146,7 +146,7 @@ bool Relations::reads_changed(int node) const {
   return std::ranges::any_of(plan.node(node).needs, [&](int need) {
     const Node& read = plan.node(need);
     if (read.rate != Rate::continuous || read.view) return transition_->changed(read.place);
-    return transition_->wrote_x(read.leaf) || reads_changed(need);
+    return transition_->writes().of(read.leaf) > 0 || reads_changed(need);
   });
 }
 

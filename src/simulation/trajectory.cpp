@@ -3,14 +3,10 @@
 #include "saltus/base/list.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
-#include <numbers>
 #include <utility>
 
 #include "saltus/simulation/detail/contact.hpp"
-#include "saltus/tape/series.hpp"
 
 namespace saltus {
 
@@ -28,42 +24,12 @@ void Trajectory::start(std::shared_ptr<const Plan> plan, const Context& from,
   *this = {};
   plan_ = std::move(plan), start_ = from;
   rtol_ = options.rtol, atol_ = options.atol;
-  size_ = plan_->nx;
+  values_ = NodalValues(plan_->nx);
   for (const int i : plan_->order) {
     const Node& of = plan_->node(i);
     if (of.rate == Rate::held && !of.view) held_nodes_.push_back(i);
   }
   first_.begin = first_.end = last_.begin = last_.end = from.time();
-}
-
-namespace {
-
-/// The Chebyshev points of the second kind on [0, 1], including both ends, for each degree up to
-/// the highest order of a Taylor series.
-constexpr int highest_degree = tape::Series::highest_order;
-using Nodes = std::array<std::array<double, highest_degree + 1>, highest_degree + 1>;
-
-const Nodes& nodes() {
-  static const Nodes all = [] {
-    Nodes made{};
-    for (int degree = 1; degree <= highest_degree; ++degree) {
-      for (int k = 0; k <= degree; ++k) {
-        const double s = std::sin(0.5 * std::numbers::pi * k / degree);
-        nth(nth(made, degree), k) = k == degree ? 1.0 : s * s;
-      }
-    }
-    return made;
-  }();
-  return all;
-}
-
-}  // namespace
-
-double Trajectory::node(int k, int degree) { return nth(nodes()[degree], k); }
-
-std::size_t Trajectory::put(const Eigen::VectorXd& x) {
-  values_.insert(values_.end(), x.begin(), x.end());
-  return values_.size() - static_cast<std::size_t>(x.size());
 }
 
 std::size_t Trajectory::hold(const Machine& machine, const Contacts& contacts) {
@@ -88,37 +54,36 @@ std::size_t Trajectory::hold(const Machine& machine, const Contacts& contacts) {
 
 void Trajectory::open(double t, const Machine& machine, const Contacts& contacts) {
   stale_ = true;
-  first_ = {.held = hold(machine, contacts), .values = put(machine.x), .begin = t, .end = t};
+  first_ = {
+      .held = hold(machine, contacts), .values = values_.put(machine.x), .begin = t, .end = t};
 }
 
 void Trajectory::close(double t, const Machine& machine, const Contacts& contacts, bool whole) {
   if (held_.empty()) open(t, machine, contacts);
   if (whole) {
-    last_ = {.held = hold(machine, contacts), .values = put(machine.x), .begin = t, .end = t};
+    last_ = {
+        .held = hold(machine, contacts), .values = values_.put(machine.x), .begin = t, .end = t};
   } else if (pieces_.empty()) {
     last_ = first_;
   } else {
     const Piece& p = pieces_.back();
-    const std::size_t last_node = p.values + static_cast<std::size_t>(p.degree * size_);
-    last_ = {.held = p.held, .values = last_node, .begin = p.end, .end = p.end};
+    last_ = {
+        .held = p.held, .values = values_.place(p.values, p.degree), .begin = p.end, .end = p.end};
   }
 }
 
 double* Trajectory::begin_piece(double from, double to, int degree, const Machine& machine,
                                 const Contacts& contacts) {
-  const std::size_t held = hold(machine, contacts), values = values_.size();
+  const std::size_t held = hold(machine, contacts), values = values_.add(degree);
   pieces_.push_back({from, to, values, values, held, degree});
-  values_.resize(values + static_cast<std::size_t>((degree + 1) * size_));
-  return values_.data() + values;
+  return values_.at(values);
 }
 
 void Trajectory::end_piece(const Eigen::VectorXd& x_end) {
   Piece& piece = pieces_.back();
-  std::copy_n(x_end.data(), size_,
-              values_.data() + piece.values + static_cast<std::size_t>(piece.degree * size_));
-  if (!std::equal(departed_.begin(), departed_.end(),
-                  values_.begin() + static_cast<std::ptrdiff_t>(piece.values)))
-    piece.first = put(departed_);
+  std::copy_n(x_end.data(), values_.size(), values_.at(values_.place(piece.values, piece.degree)));
+  if (!std::equal(departed_.begin(), departed_.end(), values_.at(piece.values)))
+    piece.first = values_.put(departed_);
 }
 
 Trajectory Trajectory::of_parts(std::shared_ptr<const Plan> plan, double begin,
@@ -131,7 +96,7 @@ Trajectory Trajectory::of_parts(std::shared_ptr<const Plan> plan, double begin,
 }
 
 std::size_t Trajectory::memory() const noexcept {
-  std::size_t bytes = values_.size() * sizeof(double) + pieces_.size() * sizeof(Piece);
+  std::size_t bytes = values_.bytes() + pieces_.size() * sizeof(Piece);
   for (const Part& part : parts_) bytes += part.of->memory();
   return bytes;
 }
@@ -150,19 +115,20 @@ std::vector<double> Trajectory::joints() const {
   return times;
 }
 
-void Trajectory::require_kept() const {
-  if (empty())
+void require_kept(const Trajectory& trajectory) {
+  if (trajectory.empty())
     throw ModelError("this run kept no dense output; ask for it with the option dense_output");
 }
 
-void Trajectory::require_inside(double t) const {
-  if (t >= begin() && t <= end()) return;
-  throw ModelError(text("t = ", t, " s is outside the run, which went from ", begin(), " s to ",
-                        end(), " s; dense output does not extrapolate"));
+void require_inside(const Trajectory& trajectory, double t) {
+  const double begin = trajectory.begin(), end = trajectory.end();
+  if (t >= begin && t <= end) return;
+  throw ModelError(text("t = ", t, " s is outside the run, which went from ", begin, " s to ", end,
+                        " s; dense output does not extrapolate"));
 }
 
 Trajectory::Spot Trajectory::spot(double t, Side side) const {
-  require_inside(t);
+  require_inside(*this, t);
   if (side == Side::right && t == end()) return last_;
   if (side == Side::left && t == begin()) return first_;
   const auto found = side == Side::right
@@ -173,28 +139,9 @@ Trajectory::Spot Trajectory::spot(double t, Side side) const {
   return {p.held, p.values, p.degree, p.begin, p.end};
 }
 
-/// The second barycentric form, applied to differences from the first value: a constant state is
-/// constant to the last bit.
 void Trajectory::state(const Spot& spot, double t, double* x) const {
-  using Row = Eigen::Map<const Eigen::VectorXd>;
-  const auto value = [&](int k) { return Row(values_.data() + spot.values + k * size_, size_); };
-  Eigen::Map<Eigen::VectorXd> out(x, size_);
   const double s = spot.degree == 0 ? 0.0 : (t - spot.begin) / (spot.end - spot.begin);
-  const int d = spot.degree;
-  for (int k = 0; k <= d; ++k) {
-    if (s != node(k, d)) continue;
-    out = value(k);
-    return;
-  }
-  out.setZero();
-  double weights = 0.0;
-  for (int k = 0; k <= d; ++k) {
-    const double end = k == 0 || k == d ? 0.5 : 1.0;
-    const double weight = (k % 2 == 0 ? end : -end) / (s - node(k, d));
-    weights += weight;
-    if (k > 0) out += weight * (value(k) - value(0));
-  }
-  out = value(0) + out / weights;
+  values_.polynomial(spot.values, spot.degree, s, x);
 }
 
 }  // namespace saltus

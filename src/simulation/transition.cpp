@@ -24,12 +24,11 @@ Transition::Transition(Machine& machine)
       y_minus_(machine.y.size()),
       x_next_(machine.x.size()),
       z_next_(machine.z.size()),
-      effects_(machine.plan().leaves.size(), 0) {}
+      writes_(machine.plan().leaves.size()) {}
 
 void Transition::open() {
   pass_wrote_ = entered_ = restarts_ = wrote_mode_ = false;
-  if (wrote_any_) std::ranges::fill(effects_, 0);
-  wrote_any_ = false;
+  writes_.clear();
   copy(machine_->x, x_minus_), copy(machine_->x, x_next_);
   copy(machine_->z, z_minus_), copy(machine_->y, y_minus_);
   modes_next_ = machine_->modes;
@@ -123,9 +122,9 @@ void Transition::deliver(const Arrival& arrival) {
 
 void Transition::count(int leaf, Wrote wrote) {
   pass_wrote_ = pass_wrote_ || wrote.x || wrote.z;
-  effects_[leaf] += wrote.x;
-  wrote_any_ = wrote_any_ || wrote.x;
-  restarts_ = restarts_ || wrote.x || (wrote.z && derivatives_read(Reads::discrete_state, leaf));
+  if (wrote.x) writes_.add(leaf);
+  restarts_ = restarts_ || wrote.x ||
+              (wrote.z && derivatives_read(machine_->plan(), Reads::discrete_state, leaf));
 }
 
 bool Transition::run(const Call& call) {

@@ -13,17 +13,9 @@ bool Transition::changed_in_pass(int leaf) const {
                      machine_->z.data() + of.z);
 }
 
-int Transition::effects(const GuardGroup& guard) const {
-  if (!wrote_any_) return 0;
-  int sum = 0;
-  for (const int leaf : guard.leaves) sum += effects_[leaf];
-  return sum;
-}
-
 /// A held output that depends on z only is found by its value. An output that also reads x or t is
 /// not.
-bool Transition::derivatives_read(Reads kind, int number) const {
-  const Plan& plan = machine_->plan();
+bool derivatives_read(const Plan& plan, Reads kind, int number) {
   const PlanLeaf& of = plan.leaf(number);
   const auto shows = [&](int i) {
     const Node& node = plan.node(i);

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 import saltus
 from saltus import drawings, library, report, scene_files
-from saltus.results import pictures
+from saltus.results import event_pictures, films, pictures
+from saltus.system import drawn, named_ports
 
 NEEDED = {"saltus.jax_function": "jax", "saltus.torch_function": "torch"}
 """name -> the package of its example, which `./dev test` does not install"""
@@ -23,7 +24,11 @@ def public_objects():
         "saltus.library": library,
         "saltus.report": report,
         "saltus.results.pictures": pictures,  # what `Results` inherits
+        "saltus.results.event_pictures": event_pictures,
+        "saltus.results.films": films,
         "saltus.scene_files": scene_files,
+        "saltus.system.drawn": drawn,  # what `System` inherits
+        "saltus.system.named_ports": named_ports,
     }
     found = {}
     for path, module in modules.items():

@@ -70,7 +70,7 @@ def test_the_machinery_for_pictures_and_the_command_line_waits_too():
 
 
 def test_import_reads_few_files():
-    """Reading modules takes most of the time: some 90 of the package, and some of the language."""
+    """Reading modules takes most of the time: some 110 of the package, and some of the language."""
     code = (
         "import numpy, sys; before = len(sys.modules); import saltus;"
         "print(len(sys.modules) - before)"

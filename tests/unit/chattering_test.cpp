@@ -60,6 +60,13 @@ TEST_CASE("Executions that set each other off count as roots do") {
   CHECK(instants_until(fast, {}, 1e-9, false, 3000, 1.0, true) == 3001);
 }
 
+TEST_CASE("Instants of time events alone do not chatter, however close they are") {
+  Chattering chattering = begun();
+  for (int i = 1; i <= 30'000; ++i)
+    REQUIRE_FALSE(chattering.chatters({.stuck = true, .flutters = true},
+                                      {1.0 + i * 1e-14, false, 1.0}, true, still));
+}
+
 TEST_CASE("Roots within the rounding of the time chatter; a fast rhythm does not") {
   Chattering close = begun(), fast = begun();
   CHECK(instants_until(close, {}, 1e-14, false, 3000) <= 2000);

@@ -125,6 +125,8 @@ TEST_CASE("The flow is asked about guards at zero, and about no others") {
   CHECK_FALSE(needs_flow(waits, unasked));
   CHECK(needs_flow({.g = 1e-10, .entered = true}, wide));
   CHECK_FALSE(needs_flow({.g = 1e-8, .entered = true}, wide));
+  // An armed guard has an error until the next look, where it fires by decision: it is not at zero.
+  CHECK_FALSE(needs_flow({.side = 1, .g = 1e-13, .error = eps, .resets = 1}, unasked));
 }
 
 TEST_CASE("A guard at zero that has not fired: contact, dormant, or waiting") {
@@ -141,6 +143,8 @@ TEST_CASE("A guard at zero that has not fired: contact, dormant, or waiting") {
       with([](auto& f) { f.effect = f.reset = false, f.at_start = true; });
   const CrossingFacts both = with([](auto& f) { f.direction = either, f.at_start = true; });
   const CrossingFacts both_turned = with([](auto& f) { f.direction = either, f.resets = 1; });
+  CrossingFacts both_passed = both_turned;
+  both_passed.phase = Phase::waiting;
   check({
       {"begins at zero, headed down: contact", starts, {-1, eps}, {}, fires_from(1, -1)},
       {"begins at zero, headed up: it flies", starts, {1, eps}, {}, waits_at(1)},
@@ -162,6 +166,26 @@ TEST_CASE("A guard at zero that has not fired: contact, dormant, or waiting") {
        waits_at(-1)},
       {"either direction, sent across by a reset", both_turned, {-1, eps}, {}, fires_from(1, -1)},
       {"either direction, sent back by a reset", both_turned, {1, eps}, {}, waits_at(1)},
+      {"either direction, passed through, its own reset sends it back",
+       both_passed,
+       {-1, eps},
+       {.turns = true},
+       fires_from(1, -1)},
+      {"either direction, passed through, its own reset does not",
+       both_passed,
+       {-1, eps},
+       {.turns = false},
+       waits_at(-1)},
+      {"either direction, passed through, and it has no reset map",
+       with([&](auto& f) { f = both_passed, f.reset = false; }),
+       {-1, eps},
+       {},
+       waits_at(-1)},
+      {"of one direction it has not passed through where it waits",
+       with([](auto& f) { f.resets = 1, f.phase = Phase::waiting; }),
+       {-1, eps},
+       {},
+       fires_from(1, -1)},
       {"on its firing side already: no contact by a reset",
        with([](auto& f) { f.resets = 1, f.side = -1; }),
        {-1, eps},
@@ -304,6 +328,11 @@ TEST_CASE("A guard that fired: off, back, at rest, or passed through") {
        waits_at(1)},
       {"without a reset map it follows the flow", plain, {-1, eps}, {}, waits_at(-1)},
       {"without a reset map it never rests", plain, {0, eps}, {}, waits_at(0)},
+      {"without a reset map it has no side at zero, though another reset wrote",
+       with([](auto& f) { f.reset = false; }),
+       {0, eps},
+       {},
+       waits_at(0)},
       {"without a reset map, clearly above: it waits on the flow's side too",
        with([](auto& f) { f.reset = f.effect = false, f.resets = 0, f.g = 1.0; }),
        {1, eps},
@@ -315,8 +344,8 @@ TEST_CASE("A guard that fired: off, back, at rest, or passed through") {
 TEST_CASE("A guard whose mode was entered at its zero") {
   const CrossingFacts entered{
       .direction = falls, .phase = Phase::unseen, .entered = true, .effect = true};
-  CrossingFacts monitor = entered;
-  monitor.effect = false;
+  CrossingFacts monitor = entered, both = entered;
+  monitor.effect = false, both.direction = either;
   const Arming slides{.then = Arming::Then::fire, .from = 1};
   check({
       {"both modes lead to the surface: it fires",
@@ -365,6 +394,21 @@ TEST_CASE("A guard whose mode was entered at its zero") {
        {},
        waits_at(-1)},
       {"a monitor does not slide", monitor, {-1, eps}, {.slope_ = -1.0}, waits_at(-1)},
+      {"a monitor leaves along the surface: at zero within its rounding",
+       monitor,
+       {1, eps},
+       {.slope_ = 0.0},
+       waits_at(1)},
+      {"of either direction, both modes lead to the surface from above",
+       both,
+       {-1, eps},
+       {.slope_ = -1.0, .round = true},
+       slides},
+      {"of either direction, both modes lead to the surface from below",
+       both,
+       {1, eps},
+       {.slope_ = 1.0, .round = true},
+       {.then = Arming::Then::fire, .from = -1}},
   });
 }
 

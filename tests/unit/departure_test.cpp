@@ -4,6 +4,7 @@
 #include <functional>
 #include <numbers>
 
+#include "saltus/library/library.hpp"
 #include "support/leaves.hpp"
 
 using namespace saltus;
@@ -335,4 +336,72 @@ TEST_CASE("a run of less than a second is looked beyond, by a second at most", "
   Chain rises({0.0}, 1e-2, [](const At& at) { return at.time; }, options);  // 1e-6 s
   CHECK(rises.side(0.2, 0.05).side == 1);
   CHECK(rises.side(2.0, 0.05).side == 0);
+}
+
+TEST_CASE("no look is further ahead than the longest step", "[departure]") {
+  const SimulatorOptions options{.rtol = 0.0, .atol = 1e-8, .max_minor_step_size = 0.1};
+  Chain rises({0.0}, 1e-2, [](const At& at) { return at.time; }, options);
+  CHECK(rises.side(0.01).side == 1);
+  CHECK(rises.side(0.2).side == 0);
+}
+
+TEST_CASE("the tolerance of a guard is that of the states that it reads", "[departure]") {
+  // The disturbance weighs a state by 0.5 to 1.
+  const SimulatorOptions options{.rtol = 0.0, .atol = std::vector{1e-9, 1e-3}};
+  const auto found = [&](Index i) {
+    Chain chain({0.0, 0.0}, 0.0, [=](const At& at) { return at.x[i]; }, options);
+    chain.departure.from(0.0, chain.machine.x, 10.0);
+    return chain.departure.tolerance(0);
+  };
+  CHECK(found(0) >= 0.5 * 30.0 * 1e-9);
+  CHECK(found(0) <= 30.0 * 1e-9);
+  CHECK(found(1) >= 0.5 * 30.0 * 1e-3);
+  CHECK(found(1) <= 30.0 * 1e-3);
+}
+
+namespace {
+
+/// Whether a ball is at the jump of a guard, and leaves it as from rest. It came from above at
+/// 1 m/s; the guard is 1 above a surface that rises, and -1 elsewhere.
+bool stops(double above, double speed, double last, double surface_speed = 0.0) {
+  Chain chain({above, speed}, last,
+              [=](const At& at) { return at.x[0] > surface_speed * (at.time - 1.0) ? 1.0 : -1.0; });
+  chain.departure.from(1.0, chain.machine.x, 10.0);
+  return chain.departure.stops_at_jump(chain.group(), 0, 1, vec({-1.0, -9.81}));
+}
+
+}  // namespace
+
+TEST_CASE("a guard that jumps is at its jump where its states are, and leave it as from rest",
+          "[departure]") {
+  CHECK(stops(0.0, 0.0, -9.81));
+  CHECK_FALSE(stops(-1e-3, 0.0, -9.81));      // beyond its jump
+  CHECK_FALSE(stops(-1e-11, 0.0, -9.81));     // beyond it by more than the resolution of the time
+  CHECK_FALSE(stops(0.0, -1.0, -9.81));       // passed through
+  CHECK_FALSE(stops(0.0, 0.0, -1e8));         // too fast to tell from a passage
+  CHECK_FALSE(stops(0.0, 0.0, 0.0));          // the flow stays at the jump
+  CHECK_FALSE(stops(0.0, 0.0, -9.81, 1e-6));  // time alone turns it: its surface moves
+}
+
+TEST_CASE("a boolean function is looked at where its states have moved by more than their rounding",
+          "[departure]") {
+  // The first look is after a move by the tolerance, 1e-8, which a state of 1e9 does not show.
+  auto [diagram, options] = [] {
+    DiagramBuilder builder;
+    auto& one = builder.add<Constant>("one", 1.0);
+    auto& x = builder.add<Integrator>("x", Integrator::Options{.initial_state = 1e9});
+    auto& above = builder.add<FunctionBlock>("above", [](double u) { return u > 1e9; });
+    auto& reader = builder.add<Integrator>("reader", Integrator::Options{});
+    builder.connect(one.output(), x.input());
+    builder.connect(x.output(), above.input());
+    builder.connect(above.output(), reader.input());
+    return std::pair(builder.build(), SimulatorOptions{.rtol = 0.0, .atol = 1e-8});
+  }();
+  Machine machine{compile(diagram)};
+  machine.load(diagram.create_context());
+  Departure departure(machine, options);
+  departure.from(0.0, machine.x, 10.0);
+  const GuardGroup& group = machine.plan().guards.front();
+  REQUIRE(group.is_opaque());
+  CHECK(departure.of(group, 0, 0.0, 0).side == 1);
 }

@@ -21,6 +21,9 @@ TEST_CASE("The error bound before the flow is asked") {
   CHECK(error_so_far(jumped) == 0.0);
   CHECK(error_so_far({.g = -3e-12, .counts_as_zero = true}) == 3e-12);
   CHECK(error_so_far({.g = -3e-12}) == 0.0);
+  // A firing counts before a mode that was entered in the same instant.
+  CHECK(error_so_far({.g = -3e-12, .location = 4e-16, .fired = true, .counts_as_zero = true}) ==
+        4e-16);
 }
 
 TEST_CASE("The guard of a contact has the largest of its errors") {

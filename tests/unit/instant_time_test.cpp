@@ -32,9 +32,11 @@ struct TwoColumns {
 };
 
 MovedTime moved(double by_g, double by_e, std::string event) {
-  Eigen::RowVectorXd by(2);
-  by << by_g, by_e;
-  return {.by = by, .event = std::move(event)};
+  MovedTime made;
+  made.by.resize(2);
+  made.by << by_g, by_e;
+  made.event = std::move(event);
+  return made;
 }
 
 constexpr double none = TangentGaps::none;

@@ -34,6 +34,7 @@ TEST_CASE(
        {.opaque = true, .g = 1.0, .fired = true, .came_from = 1, .wrote = true},
        {}},
       {"turned before, and at zero now", {.g = 0.0, .turned = true, .wrote = true}, {}},
+      {"turned before, and at zero, but nothing written", {.g = 0.0, .turned = true}, 0},
       {"turned before, off zero now", {.g = 1.0, .turned = true, .wrote = true}, 1},
   };
   for (const Reads& row : table) {

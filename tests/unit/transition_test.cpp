@@ -107,35 +107,35 @@ TEST_CASE("the next pass begins with the present values", "[transition]") {
   leaves.run(add_one);
   leaves.transition.commit(), leaves.transition.begin_pass();
   CHECK_FALSE(leaves.transition.pass_wrote());
-  CHECK(leaves.transition.wrote_x(0));
+  CHECK(leaves.transition.writes().of(0) > 0);
   leaves.run(add_one);
   leaves.transition.commit();
   CHECK(leaves.machine.x[0] == 3.0);
-  CHECK(leaves.transition.effects(0) == 2);
+  CHECK(leaves.transition.writes().of(0) == 2);
 }
 
 TEST_CASE("a reset has an effect on the guards that its block changes, and on no other",
           "[transition]") {
   TwoLeaves leaves;
   leaves.run(add_one, 1), leaves.run(add_one, 1), leaves.run(write_z, 0);
-  CHECK(leaves.transition.effects(1) == 2);
-  CHECK_FALSE(leaves.transition.wrote_x(0));
-  CHECK_FALSE(leaves.transition.wrote_x(GuardGroup{.leaf = 1, .leaves = {0}}));
-  CHECK_FALSE(leaves.transition.wrote_x(GuardGroup{.leaf = 1}));
-  CHECK(leaves.transition.effects(GuardGroup{.leaf = 0, .leaves = {0, 1}}) == 2);
+  CHECK(leaves.transition.writes().of(1) == 2);
+  CHECK(leaves.transition.writes().of(0) == 0);
+  CHECK(leaves.transition.writes().of(GuardGroup{.leaf = 1, .leaves = {0}}) == 0);
+  CHECK(leaves.transition.writes().of(GuardGroup{.leaf = 1}) == 0);
+  CHECK(leaves.transition.writes().of(GuardGroup{.leaf = 0, .leaves = {0, 1}}) == 2);
   CHECK(leaves.transition.pass_wrote());
   leaves.transition.commit(), leaves.transition.open();
-  CHECK_FALSE(leaves.transition.wrote_x(1));
+  CHECK(leaves.transition.writes().of(1) == 0);
 }
 
 TEST_CASE("writing an equal value is a reset; writing nothing is none", "[transition]") {
   TwoLeaves leaves;
   CHECK_FALSE(leaves.run(write_nothing));
   CHECK_FALSE(leaves.transition.pass_wrote());
-  CHECK(leaves.transition.effects(0) == 0);
+  CHECK(leaves.transition.writes().of(0) == 0);
   CHECK(leaves.run(write_equal));
   CHECK(leaves.transition.pass_wrote());
-  CHECK(leaves.transition.effects(0) == 1);
+  CHECK(leaves.transition.writes().of(0) == 1);
 }
 
 TEST_CASE("the solver restarts where f or x may have changed, and nowhere else", "[transition]") {

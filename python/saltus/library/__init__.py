@@ -9,22 +9,18 @@ event, and its side is held in between.
 
 from saltus.library.arithmetic import Abs, Adder, Gain, Offset, Product, Saturate
 from saltus.library.buses import BusCreator, BusSelector
+from saltus.library.delays import DelayN, TransportDelay, UnitDelay
 from saltus.library.discrete import (
-    DelayN,
     DiscreteClock,
     EdgeDetection,
     RateLimiter,
     RateTransition,
-    TransportDelay,
-    UnitDelay,
     ZeroOrderHold,
 )
+from saltus.library.discrete_control import DerivativeDiscrete, IntegratorDiscrete, PIDDiscrete
 from saltus.library.discrete_linear import (
-    DerivativeDiscrete,
     FilterDiscrete,
-    IntegratorDiscrete,
     LTISystemDiscrete,
-    PIDDiscrete,
     TransferFunctionDiscrete,
 )
 from saltus.library.functions import FeedthroughBlock, FunctionBlock, ReduceBlock, SourceBlock
@@ -40,6 +36,7 @@ from saltus.library.logic import (
     Stop,
     Switch,
 )
+from saltus.library.lookup_tables import LookupTable1d, LookupTable2d, LookupTableNd
 from saltus.library.maps import Exponent, Logarithm, Power, Reciprocal, SquareRoot, Trigonometric
 from saltus.library.matrices import (
     MatrixConcatenation,
@@ -50,15 +47,7 @@ from saltus.library.matrices import (
 )
 from saltus.library.mechanics import Backlash, MassWithFriction, RigidBody
 from saltus.library.noise import RandomNumber, WhiteNoise
-from saltus.library.nonlinear import (
-    DeadZone,
-    LookupTable1d,
-    LookupTable2d,
-    LookupTableNd,
-    MinMax,
-    Quantizer,
-    Sign,
-)
+from saltus.library.nonlinear import DeadZone, MinMax, Quantizer, Sign
 from saltus.library.signals import Chirp, DataSource, Sawtooth
 from saltus.library.sources import Clock, Constant, Pulse, Ramp, Sine, Step
 from saltus.library.state import Integrator, SecondOrderIntegrator, SlewRateLimiter

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
@@ -263,6 +262,8 @@ class EventLog(Sequence[Event]):
 
 
 def _html_row(cells: tuple[str, ...]) -> str:
+    import html  # which few scripts need
+
     return "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells) + "</tr>"
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import importlib
 from collections.abc import Iterable
 from os import PathLike
@@ -52,6 +51,8 @@ def columns_of(results: Results, taken: Iterable[str] = ()) -> dict[str, np.ndar
 
 
 def write_csv(results: Results, path: str | PathLike[str]) -> None:
+    import csv  # which few scripts need
+
     columns = {"time": results.time, "jump": results.jump}
     columns |= columns_of(results, columns)
     with open(path, "w", newline="", encoding="utf-8") as file:

@@ -16,8 +16,8 @@ from typing import Any
 
 from saltus.scene_files.evaluation import evaluated
 from saltus.scene_files.functions import number_of, value_of
-from saltus.scene_files.leaf import SceneLeaf
 from saltus.scene_files.library_block import SUBSYSTEMS, library_block
+from saltus.scene_files.scene_leaf import SceneLeaf
 from saltus.scene_files.state_machine import SceneMachine
 from saltus.scene_files.systems import Systems, parameters_of, systems_in
 from saltus.scene_files.wrong import Path

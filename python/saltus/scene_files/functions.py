@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from saltus.scene_files.evaluation import evaluated
-from saltus.scene_files.expression import Expression, Word, expression, template
+from saltus.scene_files.expression import Expression, expression
+from saltus.scene_files.words import Word, template
 from saltus.scene_files.wrong import Path, Wrong, found
 
 __all__ = ["function_of", "list_of", "number_of", "numbers_scope", "value_of"]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from saltus.scene_files.evaluation import evaluated
-from saltus.scene_files.expression import Expression, Word, expression
+from saltus.scene_files.expression import Expression, expression
 from saltus.scene_files.functions import function_of
 from saltus.scene_files.moving import (
     ALWAYS,
@@ -20,6 +20,7 @@ from saltus.scene_files.moving import (
 )
 from saltus.scene_files.names import named_vector, require_word
 from saltus.scene_files.vocabulary import ON_ZENO
+from saltus.scene_files.words import Word
 from saltus.scene_files.wrong import Path, Wrong, found
 
 __all__ = ["WEIGHT", "LeafScope"]

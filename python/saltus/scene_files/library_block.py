@@ -10,9 +10,10 @@ from saltus import library
 from saltus._core import known_names
 from saltus.library.called import elsewhere
 from saltus.scene_files.evaluation import evaluated
-from saltus.scene_files.expression import ANY, EITHER, Word, expression
+from saltus.scene_files.expression import expression
 from saltus.scene_files.functions import function_of, list_of, number_of, value_of
 from saltus.scene_files.state_machine import state_machine
+from saltus.scene_files.words import ANY, EITHER, Word
 from saltus.scene_files.wrong import Path, Wrong, found, placed, table_at
 from saltus.system import System
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from saltus.scene_files.leaf import SceneLeaf
+from saltus.scene_files.scene_leaf import SceneLeaf
 from saltus.scene_files.source import Source, place_of
 from saltus.scene_files.values import leaf_of_block, states_named
 from saltus.scene_files.wrong import Path

@@ -13,8 +13,8 @@ from saltus._span import ROUNDING
 from saltus.options import SimulatorOptions, atol_beside
 from saltus.ports import OutputPort
 from saltus.scene_files.functions import number_of, value_of
-from saltus.scene_files.leaf import SceneLeaf
 from saltus.scene_files.names import text_at
+from saltus.scene_files.scene_leaf import SceneLeaf
 from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
 from saltus.system import System
 

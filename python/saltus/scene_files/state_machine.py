@@ -10,7 +10,7 @@ from typing import Any
 from saltus.library import StateMachine, Transition
 from saltus.library.by_name import FIRST
 from saltus.scene_files.evaluation import evaluated
-from saltus.scene_files.expression import Word, expression
+from saltus.scene_files.expression import expression
 from saltus.scene_files.functions import function_of, number_of
 from saltus.scene_files.moving import (
     ALWAYS,
@@ -22,6 +22,7 @@ from saltus.scene_files.moving import (
     require_a_change,
 )
 from saltus.scene_files.names import chosen, require_part_name, require_word, text_at
+from saltus.scene_files.words import Word
 from saltus.scene_files.wrong import Path, Wrong, found, placed, require_keys, table_at
 from saltus.system import System
 

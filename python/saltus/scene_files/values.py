@@ -7,7 +7,7 @@ from typing import Any
 
 from saltus._signals import blocks_in
 from saltus.errors import ModelError
-from saltus.scene_files.leaf import SceneLeaf
+from saltus.scene_files.scene_leaf import SceneLeaf
 from saltus.scene_files.state_machine import SceneMachine
 from saltus.system import System
 

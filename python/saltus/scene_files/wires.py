@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from saltus.scene_files.names import named_path, text_at
+from saltus.scene_files.names import named_path
 from saltus.scene_files.wrong import Path, Wrong, found
 
 __all__ = ["ends_of", "wires_of"]

@@ -15,13 +15,14 @@ from saltus.errors import ModelError, SimulationError
 from saltus.results.record import Record
 from saltus.simulation import SimulatorOptions
 from saltus.simulation.whole import prepared, run_whole
+from saltus.solving.arguments import arguments_of, state_of, times_of
 from saltus.solving.form import form_of
 from saltus.solving.formed import formed
 from saltus.solving.guard import Guard, functions_of, guards_of
 from saltus.solving.kept import call_of, find, keep
 from saltus.solving.named import named_of
 from saltus.solving.solution import Known, Solution
-from saltus.solving.solved_system import SolvedSystem, arguments_of, state_of, times_of
+from saltus.solving.solved_system import SolvedSystem
 from saltus.solving.tolerances import first_step_of, tolerances_of
 
 __all__ = ["solve"]

@@ -9,10 +9,11 @@ from numpy.typing import ArrayLike
 
 from saltus.errors import ModelError
 from saltus.leaf_system import LeafSystem
+from saltus.solving.arguments import arguments_of, state_of
 from saltus.solving.form import form_of
 from saltus.solving.guard import Guard, functions_of, guards_of
 from saltus.solving.named import named_of
-from saltus.solving.solved_system import SolvedSystem, arguments_of, state_of
+from saltus.solving.solved_system import SolvedSystem
 
 __all__ = ["system_of"]
 

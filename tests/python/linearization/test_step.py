@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import saltus
-from saltus._step import horizon
+from saltus.linearization.step import horizon
 from saltus.library import Integrator
 
 

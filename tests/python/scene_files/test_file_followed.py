@@ -9,7 +9,7 @@ from file_models import FILES
 from saltus import library
 from saltus.cli import main
 from saltus.cli.one_system import OneSystem
-from saltus.scene_files import loads
+from saltus.scene_files import loads, scene_sweep
 from saltus.scene_files.library_block import arguments_of
 from saltus.scene_files.scene import FileScene
 
@@ -17,11 +17,14 @@ MADE_ANEW = ("wall_time", "attrs")
 
 
 def made_anew(monkeypatch):
-    monkeypatch.setattr(FileScene, "_following", lambda *_: None)
+    monkeypatch.setattr(scene_sweep, "one_system", lambda *_: None)
 
 
 def follows(scene, *names):
-    return scene._following({name: [1.0] for name in names}, frozenset(names), {}) is not None
+    return (
+        scene_sweep.one_system(scene, {name: [1.0] for name in names}, frozenset(names), {})
+        is not None
+    )
 
 
 def require_equal(one, other):
@@ -59,7 +62,7 @@ def test_which_parameters_of_the_examples_are_structure():
         for scene in [saltus.load_scene(file)]
         for name, value in scene.parameters.items()
         if isinstance(value, float)
-        and scene._following({name: [value]}, frozenset({name}), {}) is None
+        and scene_sweep.one_system(scene, {name: [value]}, frozenset({name}), {}) is None
     }
     assert made == {
         ("buck_converter", "period"),

@@ -9,7 +9,7 @@ from file_models import FILES, FOLDER
 from saltus import library
 from saltus.scene_files import dumps, first_scene, loads, schema
 from saltus.scene_files.files import SCHEMA
-from saltus.scene_files.leaf import GUARD_KEYS
+from saltus.scene_files.leaf_guards import GUARD_KEYS
 from saltus.scene_files.root import ROOT_KEYS
 from saltus.scene_files.run import KEYS as RUN_KEYS
 from saltus.scene_files.systems import SYSTEM_KEYS

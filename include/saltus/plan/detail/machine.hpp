@@ -11,23 +11,11 @@
 #include <vector>
 
 #include "saltus/plan/detail/arguments.hpp"
+#include "saltus/plan/detail/carried_memory.hpp"
 #include "saltus/plan/detail/resting_states.hpp"
 #include "saltus/plan/detail/seen_guards.hpp"
 
 namespace saltus {
-
-/// Moves the states of blocks that rest on a moving surface with that surface.
-class Carrier {
- public:
-  virtual ~Carrier() = default;
-  /// Sets the states it carries, from t and all other states.
-  virtual void carry(double t, double* x) = 0;
-  /// The derivatives of these states with their surface, for the control of the step size.
-  virtual void rates(double t, const double* x, double* xdot) = 0;
-  /// Replaces the guards of the carried blocks by guards that are below zero while a block presses
-  /// on its surface.
-  virtual void lift(double t, const double* x, double* g) = 0;
-};
 
 /// Describes a number that is NaN or Inf.
 struct NotFinite {
@@ -39,7 +27,7 @@ struct NotFinite {
 /// Evaluates the lists of a plan on its memory: derivatives, guards, held outputs, recorded
 /// signals. The caller of each evaluation names the state. The result is a view that lasts until
 /// the next evaluation. Nothing in this class allocates after construction.
-class Machine : public Memory {
+class Machine : public CarriedMemory {
  public:
   explicit Machine(std::shared_ptr<const Plan> plan);
 
@@ -113,13 +101,6 @@ class Machine : public Memory {
     of.declared().continuous.ode.function(*of.system, at(leaf, t, state), xdot);
   }
 
-  /// The state with all carried entries moved to their surface.
-  const double* carried(double t, const double* state) {
-    if (carrier_ == nullptr) return state;
-    carried_x_ = VectorView(state, x.size());
-    carrier_->carry(t, carried_x_.data());
-    return carried_x_.data();
-  }
   /// Computes the values that the derivatives read at (t, x), so that `at` shows them.
   void evaluate_derivative_needs(double t, const double* state) {
     run(calls_.needs_of_derivatives, t, state);
@@ -134,14 +115,6 @@ class Machine : public Memory {
   /// The entries of x that are held.
   RestingStates& resting() noexcept { return resting_; }
   const RestingStates& resting() const noexcept { return resting_; }
-
-  /// Sets the carrier, which keeps blocks on their moving surfaces; null while no block is carried.
-  void carry_by(Carrier* carrier) noexcept { carrier_ = carrier; }
-  bool carries() const noexcept { return carrier_ != nullptr; }
-  /// Moves the carried blocks to the place of their surfaces at t.
-  void put_carried(double t, double* state) {
-    if (carrier_ != nullptr) carrier_->carry(t, state);
-  }
 
   /// Chooses the guards that can fire in the present modes, and by the present control signals.
   void select_guards();
@@ -187,9 +160,7 @@ class Machine : public Memory {
   Inlined inlined_;  // if it has no function, no step may call it directly
   SeenGuards seen_;
   RestingStates resting_;
-  int functions_ = 0;           // how often they were replaced
-  Carrier* carrier_ = nullptr;  // while a block rests on a surface that moves
-  Eigen::VectorXd carried_x_;
+  int functions_ = 0;  // how often they were replaced
 };
 
 }  // namespace saltus

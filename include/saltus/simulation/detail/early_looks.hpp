@@ -36,7 +36,6 @@ struct EarlyLooks {
 
   /// Whether the guard only rises or only falls, or is constant after the start.
   bool go_one_way() const {
-    if (is_constant()) return true;
     double least = start * (after[4] < start ? -1.0 : 1.0);
     return std::ranges::all_of(after, [&](double g) {
       const double up = g * (after[4] < start ? -1.0 : 1.0);

@@ -1,13 +1,13 @@
 // Holds: when the firings of a guard accumulate, and which states rest then.
 #pragma once
 
-#include <deque>
 #include <span>
 #include <vector>
 
 #include "saltus/base/list.hpp"
 #include "saltus/simulation/detail/flow.hpp"
 #include "saltus/simulation/detail/journal.hpp"
+#include "saltus/simulation/detail/state_parts.hpp"
 #include "saltus/simulation/detail/zeno.hpp"
 
 namespace saltus {
@@ -68,15 +68,11 @@ class Holds {
  private:
   void add_guards(const GuardSet& guards);
   void add_edges();
-  std::span<const Index> whole(const PlanLeaf& leaf) const;
-  std::span<const Index> choose(const PlanLeaf& leaf, const std::vector<int>& entries);
   bool steers(const ZeroCrossing& crossing, int leaf) const;
   bool left_at_zero(const Hold& hold);
   bool accumulates(const Hold& hold);
   ZenoMonitor& changing(Hold& hold);
-  static std::span<const Index> states_of(const Hold& hold, const Continuation::Firings& saved);
   void load(Hold& hold, const Continuation::Firings& saved);
-  void require_sound(const Hold& hold, const Continuation::Firings& saved) const;
   void rest(Hold& hold, double predicted);
   [[noreturn]] void throw_accumulation(const Hold& hold, double predicted) const;
 
@@ -86,8 +82,7 @@ class Holds {
   Transition* transition_;
   Journal* journal_;
   Present* present_;
-  List<Index> states_;                     // all entries of x; a leaf rests with its part of them
-  std::deque<std::vector<Index>> chosen_;  // the states of guards that rest with a part of a leaf
+  StateParts parts_;
   List<Hold> of_guards_, of_edges_;
   Eigen::VectorXd gathered_;    // the states of one hold
   std::vector<double> values_;  // of all guards after a reset

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "saltus/base/list.hpp"
+#include "saltus/simulation/detail/nodal_values.hpp"
 #include "saltus/simulation/options.hpp"
 
 namespace saltus {
@@ -17,11 +17,8 @@ struct SurfaceContact;
 /// Which value at the time of an event: the value before it or the value after it.
 enum class Side { left, right };
 
-/// The solver's own interpolant, step by step. It is kept as its values at the Chebyshev points of
-/// the step, one more than its degree, which determine it. It is read by the barycentric formula
-/// (J.-P. Berrut, L. N. Trefethen, "Barycentric Lagrange interpolation", SIAM Review 46 (2004), pp.
-/// 504 and 507), exact at these points and as stable as the values themselves (N. J. Higham, IMA J.
-/// Numer. Anal. 24 (2004) 547). So the order of every method is kept.
+/// The solver's own interpolant, step by step, as NodalValues. So the order of every method is
+/// kept.
 ///
 /// The trajectory also keeps the values that change only at instants and that outputs read:
 /// discrete state, modes, held signals, blocks that a surface carries. It is empty, and uses no
@@ -73,10 +70,6 @@ class Trajectory {
   /// Bytes of the values it keeps.
   std::size_t memory() const noexcept;
 
-  /// Throws ModelError for a run without dense output.
-  void require_kept() const;
-  /// Throws ModelError for a time outside the run: nothing is extrapolated.
-  void require_inside(double t) const;
   Spot spot(double t, Side side) const;
   /// x(t), t within the spot.
   void state(const Spot& spot, double t, double* x) const;
@@ -102,7 +95,7 @@ class Trajectory {
     if (!(to > from)) return;
     double* nodes = begin_piece(from, to, degree, machine, contacts);
     for (int k = 0; k < degree; ++k)
-      interpolate(from + (to - from) * node(k, degree), nodes + k * size_);
+      interpolate(from + (to - from) * NodalValues::node(k, degree), nodes + k * values_.size());
     end_piece(x_end);
   }
   /// An instant happened: the held values may have changed.
@@ -117,25 +110,27 @@ class Trajectory {
     std::size_t first, values, held;  // first: index of the state at its beginning
     int degree;
   };
-  static double node(int k, int degree);
   double* begin_piece(double from, double to, int degree, const Machine& machine,
                       const Contacts& contacts);
   void end_piece(const Eigen::VectorXd& x_end);
-  std::size_t put(const Eigen::VectorXd& x);
   std::size_t hold(const Machine& machine, const Contacts& contacts);
 
   std::shared_ptr<const Plan> plan_;
   Context start_;
   Tolerance rtol_ = 1e-6, atol_ = 1e-8;
-  Index size_ = 0;
   std::vector<int> held_nodes_;
   std::vector<Piece> pieces_;
-  List<double> values_;
+  NodalValues values_;
   std::vector<Held> held_;
   std::vector<Part> parts_;
   Spot first_, last_;
   Eigen::VectorXd departed_;
   bool stale_ = true;
 };
+
+/// Throws ModelError for a run without dense output.
+void require_kept(const Trajectory& trajectory);
+/// Throws ModelError for a time outside the run: nothing is extrapolated.
+void require_inside(const Trajectory& trajectory, double t);
 
 }  // namespace saltus

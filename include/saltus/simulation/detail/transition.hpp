@@ -10,6 +10,7 @@
 #include "saltus/model/number_of.hpp"
 #include "saltus/model/pending.hpp"
 #include "saltus/plan/detail/machine.hpp"
+#include "saltus/simulation/detail/state_writes.hpp"
 
 namespace saltus {
 
@@ -85,16 +86,8 @@ class Transition {
   bool restarts() const;
 
   bool pass_wrote() const noexcept { return pass_wrote_; }  ///< the last pass wrote states
-  /// The number of reset maps of this instant that wrote the continuous state of a leaf.
-  int effects(int leaf) const { return effects_[leaf]; }
-  bool wrote_x(int leaf) const { return effects(leaf) > 0; }
-  /// The number of those that wrote a continuous state which changes a guard. The others say nothing
-  /// about the flow of that guard.
-  int effects(const GuardGroup& guard) const;
-  bool wrote_x(const GuardGroup& guard) const { return effects(guard) > 0; }
-
-  /// Whether some derivative reads the discrete state or the mode of a leaf.
-  bool derivatives_read(Reads kind, int leaf) const;
+  /// The reset maps of this instant that wrote continuous states.
+  const StateWrites& writes() const noexcept { return writes_; }
 
   const Eigen::VectorXd& before() const noexcept { return x_minus_; }
   Eigen::VectorXd& next() noexcept { return x_next_; }
@@ -124,8 +117,10 @@ class Transition {
   List<int> modes_minus_;    // before the instant, once a commit has changed a mode
   bool wrote_mode_ = false;  // in the last pass: modes_next_ may differ from the modes
   bool pass_wrote_ = false, entered_ = false, restarts_ = false;
-  List<int> effects_;       // of each leaf
-  bool wrote_any_ = false;  // some place of effects_ is not zero
+  StateWrites writes_;
 };
+
+/// Whether some derivative reads the discrete state or the mode of a leaf.
+bool derivatives_read(const Plan& plan, Reads kind, int leaf);
 
 }  // namespace saltus

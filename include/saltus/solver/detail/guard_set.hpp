@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <concepts>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
@@ -13,7 +12,7 @@
 #include "saltus/base/list.hpp"
 #include "saltus/model/continuation.hpp"
 #include "saltus/plan/plan.hpp"
-#include "saltus/solver/detail/guard.hpp"
+#include "saltus/solver/detail/followed_guards.hpp"
 
 namespace saltus {
 
@@ -73,21 +72,17 @@ struct ActiveGuards {
 };
 
 /// The only writer of guard records. Each write by the engine increments the version, so that a
-/// locator knows when the values derived from the records are outdated. Writes by the locator do
-/// not change the version.
-class GuardSet {
+/// locator knows when the values derived from the records are outdated. Writes by the locator,
+/// those of FollowedGuards, do not change the version.
+class GuardSet : public FollowedGuards {
  public:
   /// Guards that are unseen and active.
   GuardSet(std::initializer_list<GuardTraits> guards = {});
   /// The guards of a plan, unseen and inactive.
   explicit GuardSet(const Plan& plan);
 
-  const Guard& operator[](std::integral auto k) const { return guards_[k]; }
-  const List<Guard>& all() const noexcept { return guards_; }
   const ActiveGuards& active() const noexcept { return active_; }
   std::int64_t version() const noexcept { return version_; }
-
-  // --- written by the engine
 
   /// Resets all guards: unseen, inactive.
   void clear();
@@ -170,29 +165,6 @@ class GuardSet {
   /// at their present values.
   void arm_again(const std::vector<Firing>& fired);
 
-  // --- written by the locator
-
-  /// Follows a guard that stays where it is.
-  void follow_base(std::size_t k, double value) { guards_[k].base = value; }
-  /// Follows the side after a look at which the guard did not fire.
-  void follow(std::size_t k, double value) {
-    Guard& guard = guards_[k];
-    guard.base = value;
-    if (guard.phase == Phase::resting) return;
-    const int now = guard.sign(value);
-    if (now != 0 || guard.direction == Direction::edge_detection) guard.settle(now);
-  }
-  /// An edge that was located; true if the guard fires without end.
-  bool edge(std::size_t k, const EdgeSeries::Firing& firing) {
-    return guards_[k].edges.is_endless(firing);
-  }
-  /// A guard that waits was clearly on its side at a look: it becomes armed.
-  void leave_zero(std::size_t k) { guards_[k].settle(guards_[k].side); }
-  /// A monitor that crossed is at zero on its new side.
-  void pass(std::size_t k, int side, double error) { guards_[k].set(Phase::waiting, side, error); }
-  /// Sets the side to which a guard leaves zero; 0: it is exactly on zero.
-  void leave_to(std::size_t k, int side) { guards_[k].turn(side); }
-
   List<double> g;                        ///< values at the last look
   std::vector<Firing> fired_at_root;     ///< the guards that crossed at the last root
   std::vector<std::size_t> beside_root;  ///< others within the resolution of that root from zero
@@ -202,7 +174,7 @@ class GuardSet {
   std::optional<int> scan_points = {};
 
  private:
-  List<Guard> guards_, kept_;
+  List<Guard> kept_;
   bool keeps_ = false;  // kept_ is of the present search
   ActiveGuards active_;
   std::int64_t version_ = 0;
