@@ -42,7 +42,8 @@ bool Collector::take_contacts() {
     const ContactGuards::Taken taken = contacts_->take(firing);
     let_go = let_go || taken == ContactGuards::Taken::let_go;
     if (taken != ContactGuards::Taken::no) return true;
-    return present_->pass == 0 && crossings_->goes_against(firing);
+    return present_->pass == 0 &&
+           (crossings_->goes_against(firing) || relations_->turns_back(firing));
   });
   return let_go;
 }
