@@ -10,6 +10,7 @@
 #include "saltus/plan/detail/flow_divisors.hpp"
 #include "saltus/plan/detail/flow_series.hpp"
 #include "saltus/plan/detail/fuse.hpp"
+#include "saltus/plan/detail/guard_waves.hpp"
 #include "saltus/plan/detail/kept.hpp"
 #include "saltus/plan/detail/needs.hpp"
 #include "saltus/plan/detail/order.hpp"
@@ -281,6 +282,7 @@ std::shared_ptr<const Plan> detail::completed(Plan plan, const Roots& roots) {
   fuse(plan);
   plan.series = std::make_shared<Kept<FlowSeries>>();
   plan.divisors = std::make_shared<Kept<FlowDivisors>>();
+  plan.waves = std::make_shared<Kept<GuardWaves>>();
   return std::make_shared<const Plan>(std::move(plan));
 }
 

@@ -40,6 +40,7 @@ Run::Run(const System& system, SimulatorOptions options)
 void Run::functions_replaced() {
   plan().series->forget();
   plan().divisors->forget();
+  plan().waves->forget();
   machine_.functions_replaced();  // first: a method that does not suit them now must not go on
   require_series(machine_.plan(), options_.ode_solver_method);
 }
