@@ -215,6 +215,8 @@ void add_schedule(Plan& plan) {
     if (!plan.leaves[l].declared().histories.empty()) plan.histories.push_back(static_cast<int>(l));
     if (!plan.leaves[l].declared().parameter_checks.empty())
       plan.checked.push_back(static_cast<int>(l));
+    if (!plan.leaves[l].declared().start_checks.empty())
+      plan.starting.push_back(static_cast<int>(l));
   }
 }
 

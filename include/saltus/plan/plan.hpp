@@ -159,6 +159,7 @@ struct Plan {
   std::vector<Tap> taps;
   std::vector<int> histories;  // leaves that keep a history
   std::vector<int> checked;    // leaves with parameter checks
+  std::vector<int> starting;   // leaves with start checks
   std::vector<int> controls;   // nodes: the control signals of leaves with guards
   struct {
     Walk derivatives, guards;
