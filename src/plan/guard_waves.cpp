@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "expressions.hpp"
@@ -15,6 +16,10 @@ namespace saltus {
 namespace {
 
 using tape::Op;
+
+/// [nodes] that the expressions of all guards may need, for each signal and each group of guards: those of a
+/// long chain of blocks with a guard each would have n squared. Guards behind that have no waves.
+constexpr std::size_t part_room = 256;
 
 struct Argument {
   tape::Node node;
@@ -54,6 +59,7 @@ class WaveSearch {
   }
 
   GuardWaves run() {
+    room_ = part_room * (plan_.nodes.size() + plan_.guards.size());
     for (const GuardGroup& group : plan_.guards)
       if (group.follows_time == FollowsTime::yes && !group.is_opaque()) add(group);
     GuardWaves made;
@@ -124,23 +130,41 @@ class WaveSearch {
   /// The arguments, that follow the time, of the operations that an expression needs.
   std::vector<Argument> arguments_in(tape::Node guard) {
     tape::Graph& graph = values_.graph();
-    List<char> needed(guard.id + 1, 0), timed(guard.id + 1, 0);
+    find_timed();
     std::vector<Argument> found;
-    needed[guard.id] = 1;
-    for (int id = guard.id; id >= 0; --id) {
-      const tape::Expression& e = graph[{id}];
-      for (int k = 0; k < tape::operand_count(e.op); ++k)
-        needed[nth(e, k)] = needed[nth(e, k)] || needed[id];
-    }
-    for (int id = 0; id <= guard.id; ++id) {
-      const tape::Expression e = graph[{id}];
-      timed[id] = e.op == Op::time;
-      for (int k = 0; k < tape::operand_count(e.op); ++k) timed[id] = timed[id] || timed[nth(e, k)];
-      if (!needed[id] || !timed[id]) continue;
+    for (const int id : part_of(guard)) {
+      if (!timed_[id]) continue;
       if (const auto argument = argument_of(graph, {id})) found.push_back(*argument);
     }
     return found;
   }
+
+  /// The nodes that an expression needs; none where the room is used up.
+  std::vector<int> part_of(tape::Node guard) {
+    const tape::Graph& graph = values_.graph();
+    seen_.resize(graph.size(), 0);
+    std::vector<int> part{guard.id};
+    seen_[guard.id] = ++search_;
+    for (std::size_t next = 0; next < part.size(); ++next) {
+      if (room_-- == 0) return room_ = 0, std::vector<int>();
+      const tape::Expression& e = graph[{part[next]}];
+      for (int k = 0; k < tape::operand_count(e.op); ++k)
+        if (std::exchange(seen_[nth(e, k)], search_) != search_) part.push_back(nth(e, k));
+    }
+    return part;
+  }
+
+  /// Whether nodes follow the time, for those that are new.
+  void find_timed() {
+    const tape::Graph& graph = values_.graph();
+    for (int id = static_cast<int>(timed_.size()); id < graph.size(); ++id) {
+      const tape::Expression& e = graph[{id}];
+      char timed = e.op == Op::time;
+      for (int k = 0; k < tape::operand_count(e.op); ++k) timed = timed || timed_[nth(e, k)];
+      timed_.push_back(timed);
+    }
+  }
+
   static int nth(const tape::Expression& e, int k) {
     return e.operands[static_cast<std::size_t>(k)].id;
   }
@@ -150,6 +174,10 @@ class WaveSearch {
   detail::Expressions values_;
   std::vector<tape::Node> guards_, arguments_;
   std::vector<Found> found_;  // one for each argument
+  List<char> timed_;          // whether a node follows the time
+  List<int> seen_;            // the last search that saw a node
+  int search_ = 0;
+  std::size_t room_ = 0;  // nodes that the searches may see yet
 };
 
 }  // namespace
