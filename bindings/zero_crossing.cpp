@@ -101,7 +101,8 @@ ZeroCrossing read(const Options& options) {
           .persistent = options.truth("persistent"),
           .initial_value = options.truth("initial_value"),
           .use_values_from_trigger_time = options.truth("use_values_from_trigger_time"),
-          .yields = options.get<bool>("yields", "True or False")};
+          .yields = options.get<bool>("yields", "True or False"),
+          .follows_updates = options.get<bool>("follows_updates", "True or False")};
 }
 
 /// A number or a function of the block; nothing for None.

@@ -54,8 +54,9 @@ struct IntegratorRule {
       y = value ? at.u[*value] : at.parameter(initial);
     } else {
       y = s.head(y.size());
-      if (weight > 0.0 && !starts(s)) add(at, weight, y), limit(at, y);
+      if (weight > 0.0 && !starts(s)) add(at, weight, y);
     }
+    limit(at, y);
   }
   void next(const At& at, const VectorView& s, VectorRef next) const {
     const VectorRef y(next.data(), next.size() - 1);

@@ -35,6 +35,7 @@ void RandomNumber::declare_normal(double dt, const Options& o) {
                        mean = declare_dynamic_parameter("mean", o.mean.values),
                        deviation = declare_dynamic_parameter("standard_deviation",
                                                              o.standard_deviation.values);
+  declare_seed(seed);
   declare_parameter_check(detail::not_negative(deviation, "standard_deviation"));
   const std::vector<Shape> shapes{o.mean.shape(), o.standard_deviation.shape()};
   declare_output_port({.name = "out",
@@ -53,6 +54,7 @@ void RandomNumber::declare_uniform(double dt, const Options& o) {
   const ParameterIndex seed = declare_dynamic_parameter("seed", o.seed),
                        lower = declare_dynamic_parameter("lower_limit", o.lower_limit.values),
                        upper = declare_dynamic_parameter("upper_limit", o.upper_limit.values);
+  declare_seed(seed);
   declare_parameter_check(detail::ordered(lower, upper));
   const std::vector<Shape> shapes{o.lower_limit.shape(), o.upper_limit.shape()};
   declare_output_port({.name = "out",

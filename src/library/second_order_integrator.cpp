@@ -2,6 +2,8 @@
 #include "saltus/library/second_order_integrator.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "saltus/library/detail/elementwise.hpp"
 #include "saltus/library/detail/parameter_checks.hpp"
@@ -9,6 +11,26 @@
 namespace saltus {
 
 namespace {
+
+/// [of 1 and of a limit] How far a state may be beyond its limit: a run leaves a velocity beyond it by its
+/// last move within the resolution of the time.
+constexpr double beyond_limit = 1e-9;
+
+/// The check of n entries of the state, from `first` on, against a limit.
+StartCheck begins_inside(std::string state, std::string limit, ParameterIndex k, double outward,
+                         Index first, Index n) {
+  return [=](const std::string& block, double t, const VectorView& x,
+             const ParameterValues& values) {
+    for (Index i = 0; i < n; ++i) {
+      const double value = x[first + i], bound = detail::entry(values.vector(k), i);
+      const double room = beyond_limit * (1.0 + std::abs(bound));
+      detail::insist(!(outward * (value - bound) > room), block, "at the start of the run, t = ", t,
+                     " s, ", state, "[", i, "] = ", value, " is ",
+                     outward > 0.0 ? "above " : "below ", limit, " ", bound,
+                     "; begin at the limit or inside it, or change the parameter '", limit, "'");
+    }
+  };
+}
 
 void require_restitution(const std::string& block, double found) {
   detail::insist(found >= 0.0 && found <= 1.0, block, "restitution = ", found, "; expected 0 to 1");
@@ -93,6 +115,7 @@ RelationIndex SecondOrderIntegrator::declare_velocity_limit(const char* paramete
                                                             const Value& limit, double outward) {
   const ParameterIndex k = declare_dynamic_parameter(parameter, limit.values);
   (outward > 0.0 ? fastest_ : slowest_) = k;
+  declare_start_check(begins_inside("dx", parameter, k, outward, n_, n_));
   return declare_relation({.name = relation,
                            .true_at_zero = true,
                            .size = n_,
@@ -136,6 +159,7 @@ void SecondOrderIntegrator::require_inside(const Options& o) const {
 ParameterIndex SecondOrderIntegrator::declare_limit(const char* parameter, const Value& limit,
                                                     double outward, ParameterIndex restitution) {
   const ParameterIndex k = declare_dynamic_parameter(parameter, limit.values);
+  declare_start_check(begins_inside("x", parameter, k, outward, 0, n_));
   std::vector<std::vector<int>> rests;
   for (int i = 0; i < static_cast<int>(n_); ++i) rests.push_back({i, static_cast<int>(n_) + i});
   const auto stop = [=, n = n_, slowest = slowest_, fastest = fastest_](const At& at, Next& next) {

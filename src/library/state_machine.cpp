@@ -114,7 +114,10 @@ void StateMachine::declare_transitions(const Options& options) {
         .leave = {action_of(options.exit, each.source), each.action},
         .entry = action_of(options.entry, each.target),
         .before = nth(before, source),
-        .behind_return = returns.contains(source)};
+        .behind_return = returns.contains(source),
+        .beside_triggers = std::ranges::any_of(options.transitions, [&](const Transition& other) {
+          return other.trigger && other.source == each.source;
+        })};
     declare_zero_crossing(step.crossing(events[k]));
     if (target == source) returns.insert(source);
     if (!each.trigger && target != source) nth(before, source).push_back(step.due);

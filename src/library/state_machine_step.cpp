@@ -89,6 +89,7 @@ ZeroCrossing StateMachineStep::crossing(const std::string& event) const {
     found.yields = behind_return;
   } else {
     found.guard = [step = *this](const At& at) { return step.residual(at); };
+    found.follows_updates = beside_triggers;
   }
   return found;
 }

@@ -17,6 +17,7 @@ WhiteNoise::WhiteNoise(std::string name, double dt, const Options& options)
                  "; expected a finite number");
   const ParameterIndex seed = declare_dynamic_parameter("seed", options.seed),
                        power = declare_dynamic_parameter("power", options.power.values);
+  declare_seed(seed);
   declare_parameter_check(detail::not_negative(power, "power"));
   declare_output_port({.name = "out",
                        .calc =

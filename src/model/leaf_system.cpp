@@ -236,6 +236,16 @@ void LeafSystem::declare_parameter_check(ParameterCheck check) {
   declared_.parameter_checks.push_back(std::move(check));
 }
 
+void LeafSystem::declare_start_check(StartCheck check) {
+  require_unused();
+  declared_.start_checks.push_back(std::move(check));
+}
+
+void LeafSystem::declare_seed(ParameterIndex seed) {
+  require_unused();
+  declared_.seed = seed;
+}
+
 int LeafSystem::declare_input_port(InputDeclaration input) {
   require_unused();
   detail::name_it(input.name, declared_.inputs, "in_", name());

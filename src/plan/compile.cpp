@@ -10,6 +10,7 @@
 #include "saltus/plan/detail/flow_divisors.hpp"
 #include "saltus/plan/detail/flow_series.hpp"
 #include "saltus/plan/detail/fuse.hpp"
+#include "saltus/plan/detail/guard_waves.hpp"
 #include "saltus/plan/detail/kept.hpp"
 #include "saltus/plan/detail/needs.hpp"
 #include "saltus/plan/detail/order.hpp"
@@ -214,6 +215,8 @@ void add_schedule(Plan& plan) {
     if (!plan.leaves[l].declared().histories.empty()) plan.histories.push_back(static_cast<int>(l));
     if (!plan.leaves[l].declared().parameter_checks.empty())
       plan.checked.push_back(static_cast<int>(l));
+    if (!plan.leaves[l].declared().start_checks.empty())
+      plan.starting.push_back(static_cast<int>(l));
   }
 }
 
@@ -281,6 +284,7 @@ std::shared_ptr<const Plan> detail::completed(Plan plan, const Roots& roots) {
   fuse(plan);
   plan.series = std::make_shared<Kept<FlowSeries>>();
   plan.divisors = std::make_shared<Kept<FlowDivisors>>();
+  plan.waves = std::make_shared<Kept<GuardWaves>>();
   return std::make_shared<const Plan>(std::move(plan));
 }
 

@@ -130,14 +130,30 @@ ResetMap ControlledLeaf::while_true(const ResetMap& map) const {
   };
 }
 
+/// The states of a part inside this one return to their start where this part is enabled while the signal of the
+/// inner one is true: from then on that one is executed again.
+EdgeReset ControlledLeaf::reset_behind(const EdgeReset& inner) const {
+  EdgeReset reset = inner;
+  reset.input = control_;
+  reset.inputs->push_back(inner.input);
+  reset.reset_map = [&system = system_, map = inner.reset_map, signal = inner.input](const At& at,
+                                                                                     Next& next) {
+    if (at.u(signal) != 0.0) map(system, at, next);
+  };
+  return reset;
+}
+
 /// An edge of a gated signal is written: where it falls with this part, the part has been executed
 /// until then.
 void ControlledLeaf::write_while_true() {
+  List<EdgeReset> behind;
   for (EdgeReset& reset : declared_.edge_resets) {
     if (is_gated(leaf_.inputs[reset.input])) continue;
+    if (reset.before_updates) behind.push_back(reset_behind(reset));
     reset.inputs = with_control(reset.inputs);
     reset.reset_map = while_true(reset.reset_map);
   }
+  for (EdgeReset& reset : behind) declared_.edge_resets.push_back(std::move(reset));
   for (TimeEvent& event : declared_.time_events) {
     if (!event.update) continue;
     event.inputs = with_control(event.inputs);

@@ -29,6 +29,7 @@ class ControlledLeaf {
   void rest_while_false();
   void write_while_true();
   void reset_when_enabled();
+  EdgeReset reset_behind(const EdgeReset& inner) const;
   void require_interruptible() const;
   void require_updates_only() const;
   Named own_or(const Named& named) const { return named ? named : own_; }

@@ -1,4 +1,8 @@
 // Plan::describe(): says what was kept, folded and dropped, and why.
+#include <map>
+#include <string>
+#include <vector>
+
 #include "saltus/model/computed_parameter.hpp"
 #include "saltus/model/detail/diagram_parameters.hpp"
 #include "saltus/plan/plan.hpp"
@@ -44,6 +48,24 @@ void describe_guard(std::string& out, const Plan& plan, const GuardGroup& guard)
                 "' is an opaque boolean: located by bisection; a Comparator would be faster");
   }
   out += "\n";
+}
+
+/// The blocks of which the random numbers are the same, or follow from the same ones.
+void describe_seeds(std::string& out, const Plan& plan) {
+  std::map<double, std::vector<std::string>> blocks;
+  for (const PlanLeaf& leaf : plan.leaves) {
+    const auto& declared = leaf.declared();
+    if (declared.seed)
+      blocks[declared.parameter_values[declared.seed->offset]].push_back(leaf.path);
+  }
+  for (const auto& [seed, paths] : blocks) {
+    if (paths.size() < 2) continue;
+    out += text("  the random numbers of ", paths.size(),
+                " blocks are not independent, because all have the seed ", seed, ":");
+    for (std::size_t i = 0; i < paths.size() && i < 8; ++i)
+      out += text(i == 0 ? " '" : ", '", paths[i], "'");
+    out += paths.size() > 8 ? ", ...\n" : "\n";
+  }
 }
 
 void describe_controls(std::string& out, const Plan& plan) {
@@ -107,6 +129,7 @@ std::string Plan::describe() const {
   describe_list(out, *this, "dropped, nothing reads them", dropped);
   describe_guards(out, *this);
   describe_controls(out, *this);
+  describe_seeds(out, *this);
   describe_events(out, *this);
   if (odes.empty()) out += "no continuous state: no solver\n";
   out += taps.empty() ? "nothing recorded: no recorder\n"

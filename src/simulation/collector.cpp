@@ -1,5 +1,6 @@
 // Collector: firings, edges, zero crossings.
 #include <algorithm>
+#include <iterator>
 
 #include "saltus/simulation/detail/collector.hpp"
 
@@ -33,6 +34,22 @@ void sort(const Plan& plan, std::vector<Action>& actions) {
     std::rotate(std::upper_bound(actions.begin(), a, *a, before), a, a + 1);
 }
 
+/// Moves the firings that wait to another list.
+template <class Waits>
+void let_wait(std::vector<Firing>& firings, std::vector<Firing>& waiting, const Waits& waits) {
+  waiting.clear();
+  std::ranges::copy_if(firings, std::back_inserter(waiting), waits);
+  if (!waiting.empty()) std::erase_if(firings, waits);
+}
+
+/// Adds those that waited, so that the order of declaration decides.
+void take_waiting(std::vector<Firing>& firings, std::vector<Firing>& waiting) {
+  if (waiting.empty()) return;
+  firings.insert(firings.end(), waiting.begin(), waiting.end());
+  std::ranges::sort(firings, {}, &Firing::slot);
+  waiting.clear();
+}
+
 }  // namespace
 
 bool Collector::take_contacts() {
@@ -42,7 +59,8 @@ bool Collector::take_contacts() {
     const ContactGuards::Taken taken = contacts_->take(firing);
     let_go = let_go || taken == ContactGuards::Taken::let_go;
     if (taken != ContactGuards::Taken::no) return true;
-    return present_->pass == 0 && crossings_->goes_against(firing);
+    return present_->pass == 0 &&
+           (crossings_->goes_against(firing) || relations_->turns_back(firing));
   });
   return let_go;
 }
@@ -122,6 +140,12 @@ void Collector::collect_carried(std::size_t e) {
 /// guards that do nothing when they fire: monitors, and terminal guards that end the run at a later
 /// firing. A guard from which event wires start acts.
 void Collector::collect_crossings() {
+  if (present_->pass == 0)
+    let_wait(present_->firings, waiting_, [this](const Firing& firing) {
+      return waits_for_updates(plan_->guard((*guards_)[firing.guard()].group));
+    });
+  else
+    take_waiting(present_->firings, waiting_);
   auto passive = present_->firings.begin();
   for (const Firing& firing : present_->firings) {
     const std::size_t k = firing.guard();
@@ -143,6 +167,12 @@ void Collector::collect_crossings() {
   }
   present_->firings.erase(passive, present_->firings.end());
   sort(*plan_, present_->actions);
+}
+
+bool Collector::waits_for_updates(const GuardGroup& group) const {
+  if (!group.is_crossing() || !plan_->crossing_of(group).follows_updates) return false;
+  return std::ranges::any_of(present_->actions,
+                             [](const Action& action) { return action.cause == Cause::time; });
 }
 
 void Collector::note_passive() {

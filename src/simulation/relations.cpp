@@ -51,6 +51,20 @@ void Relations::begin(double t) {
   }
 }
 
+bool Relations::turns_back(const Firing& firing) {
+  const std::size_t k = firing.guard();
+  const GuardGroup& group = machine_->plan().guard((*guards_)[k].group);
+  if (group.is_crossing() || group.is_opaque()) return false;
+  Departure::Side flow;
+  const auto flow_to = [&] {
+    flow = flow_->side(group, static_cast<Index>(k), 0.0, Departure::either_side);
+    return flow.side;
+  };
+  if (!only_touches(guards_->g[k], firing.from, flow_to)) return false;
+  guards_->wait(k, firing.from, flow.rounding);
+  return true;
+}
+
 void Relations::flip(const Firing& firing) {
   const std::size_t k = firing.guard();
   const Guard& guard = (*guards_)[k];

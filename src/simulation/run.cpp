@@ -30,6 +30,19 @@ void require_common_step(const Context& context) {
       "values");
 }
 
+/// A context that continues a run has states that the run led to.
+void check_start(const Machine& machine, const Context& context) {
+  if (context.continuation() != nullptr) return;
+  const Plan& plan = machine.plan();
+  for (const int number : plan.starting) {
+    const PlanLeaf& leaf = plan.leaf(number);
+    const VectorView state(machine.x.data() + leaf.x, leaf.nx);
+    const ParameterValues values({machine.p.data() + leaf.p, leaf.np});
+    for (const StartCheck& check : leaf.declared().start_checks)
+      check(leaf.path, context.time(), state, values);
+  }
+}
+
 }  // namespace
 
 Run::Run(const System& system, SimulatorOptions options)
@@ -40,6 +53,7 @@ Run::Run(const System& system, SimulatorOptions options)
 void Run::functions_replaced() {
   plan().series->forget();
   plan().divisors->forget();
+  plan().waves->forget();
   machine_.functions_replaced();  // first: a method that does not suit them now must not go on
   require_series(machine_.plan(), options_.ode_solver_method);
 }
@@ -57,6 +71,7 @@ void Run::initialize(const Context& context) {
   calendar_.check(context.time());
   Context last = std::exchange(begin_, {});  // no run, if a function of the model throws now
   machine_.load(context);
+  check_start(machine_, context);
   last = context;  // in the memory of the last run's
   if (plan().computed) last = last.with_computed(plan().computed);
   begin_ = std::move(last);

@@ -1,36 +1,17 @@
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "copy.hpp"
 #include "saltus/base/list.hpp"
 #include "saltus/tape/divisors.hpp"
+#include "saltus/tape/value_range.hpp"
 
 namespace saltus::tape {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-/// Bounds of the values of an expression; each side is infinite if nothing is known.
-struct ValueRange {
-  double low = -infinite, high = infinite;
-
-  bool changes_sign() const { return low < 0.0 && high > 0.0; }
-};
-
-ValueRange operator+(const ValueRange& a, const ValueRange& b) {
-  return {a.low + b.low, a.high + b.high};
-}
-ValueRange operator-(const ValueRange& a) { return {-a.high, -a.low}; }
-/// A product of unbounded factors that keep their signs keeps its sign too.
-ValueRange operator*(const ValueRange& a, const ValueRange& b) {
-  const auto product = [](double x, double y) { return x == 0.0 || y == 0.0 ? 0.0 : x * y; };
-  const auto [low, high] = std::minmax({product(a.low, b.low), product(a.low, b.high),
-                                        product(a.high, b.low), product(a.high, b.high)});
-  return {low, high};
-}
+constexpr double infinite = ValueRange::infinite;
 
 class DivisorSearch {
  public:

@@ -28,6 +28,8 @@ ELSEWHERE = {
     "plan/detail/flow_graph": "unit/series_kinks_test.cpp",
     "plan/detail/flow_series": "unit/taylor_test.cpp",
     "plan/detail/flow_variables": None,
+    "plan/detail/guard_waves": "laws/resting_waves_test.cpp",
+    "solver/detail/wave_looks": "laws/resting_waves_test.cpp",
     "plan/detail/kept": None,
     "plan/detail/leaf_function": "unit/linearize_test.cpp",
     "plan/detail/memory": None,

@@ -338,3 +338,18 @@ def test_a_relay_of_one_threshold_has_one_parameter():
 def test_impossible_tables_and_counts_are_refused(make, message):
     with pytest.raises(ModelError, match=message):
         make()
+
+
+def test_blocks_with_one_seed_are_named():
+    def described(*seeds):
+        builder = saltus.DiagramBuilder()
+        first, second, third = seeds
+        builder.add(RandomNumber(0.1, seed=first, name="first"))
+        builder.add(RandomNumber(0.2, distribution="uniform", seed=second, name="second"))
+        builder.add(WhiteNoise(0.1, seed=third, name="third"))
+        return saltus.Simulator(builder.build()).describe()
+
+    assert "random numbers" not in described(1, 2, 3)
+    assert "random numbers of 2 blocks" in described(1, 2, 1)
+    assert "have the seed 1: 'first', 'third'" in described(1, 2, 1)
+    assert "'first', 'second', 'third'" in described(0, 0, 0)

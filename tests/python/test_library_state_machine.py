@@ -187,6 +187,22 @@ def test_one_of_several_transitions_of_a_state_to_itself_is_taken(what, transiti
     assert results.context[machine].discrete_state[1] == log
 
 
+@pytest.mark.parametrize("python", PYTHON)
+@pytest.mark.parametrize("target", ["on", "off"])
+@pytest.mark.parametrize(("trigger", "time", "log"), [(1.0, 0.0, 1.0), (0.0, 1.0, 2.0)])
+@pytest.mark.parametrize("source", [Pulse(period=4.0, phase_delay=1.0), Step(step_time=1.0)])
+def test_priorities_decide_between_a_tick_and_a_time(source, trigger, time, log, target, python):
+    """Both are due at 1 s: the pulse rises, and the time in the state ends."""
+    machine = digits(
+        [
+            dict(trigger=rises, priority=trigger, target=target),
+            dict(after=1.0, priority=time, target=target),
+        ]
+    )
+    results = run(machine, source, 1.5, python=python)
+    assert results.context[machine].discrete_state[1] == log
+
+
 def test_a_trigger_moves_on_by_one_state_each_time():
     """One edge is one transition, though the next state waits for the same trigger; a trigger that
     is true at the start is none."""

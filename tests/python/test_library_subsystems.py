@@ -567,3 +567,45 @@ def test_an_edge_counts_at_its_time_if_the_part_around_it_is_enabled_then(
     builder.export_output(outer.output(), "out")
     results = saltus.simulate(builder.build(), (0.0, 10.0))
     assert results["out"][-1] == last
+
+
+@pytest.mark.parametrize("depth", [1, 2])
+@pytest.mark.parametrize("states", ["reset", "held"])
+def test_a_part_inside_a_part_returns_to_its_start_where_that_is_enabled(states, depth):
+    """The inner part is executed by the signal of a block that others read too: true from 1 s on. The
+    outer part is enabled for the first half of each 4 s, so the integral of 1 begins anew at 4 s."""
+    builder = saltus.DiagramBuilder()
+    x, after = builder.add(Integrator(name="x"), Step(0.0, 1.0, step_time=1.0, name="after"))
+    also = builder.add(Gain(2.0, name="also"))
+    builder.connect(after.output(), also.input())
+    builder.export_input(x.input(), "u")
+    builder.export_output(x.output(), "y")
+    builder.execute(x, after.output(), states=states)
+    part = builder.build("inner")
+    if depth == 2:  # a part between them that is always enabled
+        between = saltus.DiagramBuilder()
+        middle = between.add(EnabledSubsystem(part, name="middle"))
+        between.export_input(middle.input(0), "u")
+        between.export_input(middle.input("enable"), "on")
+        between.export_output(middle.output(), "y")
+        part = between.build("between")
+    outer = saltus.DiagramBuilder()
+    sub = outer.add(EnabledSubsystem(part, name="sub"))
+    one = outer.add(Constant(1.0, name="one"))
+    pulse = outer.add(Pulse(period=4.0, name="pulse"))
+    outer.connect(one.output(), sub.input(0))
+    if depth == 2:
+        outer.connect(one.output(), sub.input(1))
+    outer.connect(pulse.output(), sub.input("enable"))
+    run = saltus.simulate(
+        outer.build(),
+        time_span=(0.0, 9.0),
+        recorded_signals={"y": sub.output(0)},
+        save_at=[0.5, 2.5, 4.0, 5.0, 7.0, 9.0],
+        **PRECISE,
+    )
+    anew = {"reset": [0.0, 1.0, 0.0, 1.0, 2.0, 1.0], "held": [0.0, 1.0, 1.0, 2.0, 3.0, 4.0]}
+    y = {
+        round(t, 9): v for t, v in zip(run.time, run["y"], strict=True)
+    }  # the last row of each time
+    assert [y[t] for t in (0.5, 2.5, 4.0, 5.0, 7.0, 9.0)] == pytest.approx(anew[states], abs=1e-9)

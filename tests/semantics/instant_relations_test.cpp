@@ -50,6 +50,24 @@ TEST_CASE("3.5 also where the guard stays at exactly zero from there on", "[sema
   CHECK_THAT(true_for(stopwatch(falls, true_at_zero), method), WithinAbs(0.25, 1e-9));
 }
 
+TEST_CASE("3.5 a relation that touches zero and turns back does not change", "[semantics]") {
+  const auto method = GENERATE(from_range(methods));
+  const bool true_at_zero = GENERATE(true, false);
+  const double side = GENERATE(1.0, -1.0);
+  INFO("method " << method << ", true_at_zero " << true_at_zero << ", side " << side);
+  // The updates make steps that end exactly where x, which is t, touches zero.
+  for (const bool smooth : {true, false}) {
+    Leaf leaf = stopwatch(
+        [=](double x) { return side * (smooth ? (x - 0.25) * (x - 0.25) : std::abs(x - 0.25)); },
+        true_at_zero);
+    leaf.declare_periodic_update([](const At&, Next&) {}, 0.125);
+    const auto results =
+        simulate(leaf, leaf.create_context(), {0.0, 1.0}, {.ode_solver_method = method});
+    CHECK(results.events.times("relation").empty());
+    CHECK_THAT(results.context.continuous_state()[1], WithinAbs(side > 0.0 ? 1.0 : 0.0, 1e-9));
+  }
+}
+
 TEST_CASE("3.5 a relation that a commit puts at exactly zero keeps the side it has",
           "[semantics]") {
   const auto method = GENERATE(from_range(methods));

@@ -72,6 +72,35 @@ TEST_CASE("an IntegratorDiscrete does not wind up", "[library][sampled]") {
   }
 }
 
+/// A start, a context and a reset may put it beyond; a hold keeps it where it is.
+TEST_CASE("an IntegratorDiscrete is within its limits from the first tick on",
+          "[library][sampled]") {
+  const auto method = GENERATE("forward", "backward", "trapezoidal");
+  const double beyond = GENERATE(5.0, -5.0);
+  INFO("method " << method);
+  const IntegratorDiscrete::Options options{.initial_state = beyond,
+                                            .method = method,
+                                            .enable_reset = true,
+                                            .enable_limits = true,
+                                            .lower_limit = -2.0,
+                                            .upper_limit = 2.0,
+                                            .enable_hold = true};
+  const auto wire = [](DiagramBuilder& builder, IntegratorDiscrete& block) {
+    builder.connect(builder.add<Constant>("zero", 0.0).output(), block.input("in"));
+    builder.connect(
+        builder.add<Pulse>("pulse", PulseOptions{.period = 2.0, .phase_delay = 2.0}).output(),
+        block.input("reset_trigger"));
+    builder.connect(
+        builder
+            .add<Step>("hold", StepOptions{.start_value = 1.0, .end_value = 0.0, .step_time = 1.5})
+            .output(),
+        block.input("hold_trigger"));
+  };
+  const Numbers y =
+      BlockRun<IntegratorDiscrete>(wire, 1.0, options).at({0.0, 0.5, 1.5, 2.5, 3.5, 4.5});
+  for (const double each : y) CHECK(each == (beyond > 0.0 ? 2.0 : -2.0));
+}
+
 TEST_CASE("an IntegratorDiscrete on hold does not change", "[library][sampled]") {
   const auto wire = [](DiagramBuilder& builder, auto& block) {
     builder.connect(builder.add<Constant>("one", 1.0).output(), block.input(0));

@@ -99,3 +99,33 @@ TEST_CASE("limits of the velocity are refused where they do not fit", "[library]
   CHECK(contains(refused({.lower_velocity_limit = Value{1.0, 2.0}}),
                  "lower_velocity_limit has 2 values"));
 }
+
+/// Where a context or a parameter puts a body beyond a limit, no flow would bring it back.
+TEST_CASE("a run does not begin beyond a limit, and goes on from each end of a run",
+          "[library][errors]") {
+  const BlockRun<SecondOrderIntegrator> scene(fed_by<Constant>(1.0),
+                                              Options{.lower_limit = -3.0,
+                                                      .upper_limit = 0.5,
+                                                      .lower_velocity_limit = 0.0,
+                                                      .upper_velocity_limit = 0.75});
+  const Context begin = scene.diagram.create_context();
+  const auto refused = [&](const Context& context) {
+    return model_error([&] { simulate(scene.diagram, context, {0.0, 1.0}); });
+  };
+  const auto at = [&](double x, double v) {
+    return begin.with_continuous_state(Eigen::Vector2d(x, v));
+  };
+  CHECK(contains(refused(at(2.0, 0.0)), "x[0] = 2 is above upper_limit 0.5"));
+  CHECK(contains(refused(at(-4.0, 0.0)), "x[0] = -4 is below lower_limit -3"));
+  CHECK(contains(refused(at(0.0, 1.0)), "dx[0] = 1 is above upper_velocity_limit 0.75"));
+  CHECK(contains(refused(at(0.0, -1e-6)), "below lower_velocity_limit 0"));
+  CHECK(contains(refused(at(0.4, 0.0).with_parameter("block.upper_limit", 0.25)), "block 'block'"));
+  for (const double end : {0.5, 0.75, 1.0, 2.0}) {
+    const Results first = simulate(scene.diagram, begin, {0.0, end});
+    const Results second = simulate(scene.diagram, first.context, {end, 3.0});
+    CHECK_THAT(second.context.continuous_state()[0], WithinAbs(0.5, rounding));
+    // The same state as a beginning: at the limits, or beyond them by rounding.
+    const Context anew = begin.with_continuous_state(first.context.continuous_state());
+    CHECK_NOTHROW(simulate(scene.diagram, anew, {0.0, 1.0}));
+  }
+}

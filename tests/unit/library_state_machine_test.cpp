@@ -161,6 +161,52 @@ TEST_CASE("of the transitions that could be taken at one time one is taken, by p
   }
 }
 
+TEST_CASE(
+    "priorities decide between a trigger that a tick moves and a time that ends at that tick") {
+  // The trigger rises at 1 s, and the time in the state ends there.
+  const std::vector<Wire> sources{pulse(4.0, 0.5, 1.0), fed_by<Step>(StepOptions{.step_time = 1.0}),
+                                  [](DiagramBuilder& builder, StateMachine& machine) {
+                                    auto& clock = builder.add<Clock>("clock");
+                                    auto& held = builder.add<ZeroOrderHold>("held", 1.0);
+                                    builder.connect(clock.output(), held.input());
+                                    builder.connect(held.output(), machine.input());
+                                  }};
+  struct Row {
+    const char* what;
+    double trigger, time;  // priorities
+    bool trigger_returns, time_returns;
+    double log;
+  };
+  const std::vector<Row> rows{{"trigger first", 1, 0, false, false, 1.0},
+                              {"time first", 0, 1, false, false, 2.0},
+                              {"a trigger that returns", 1, 0, true, false, 1.0},
+                              {"a time behind a trigger that leaves", 1, 0, false, true, 1.0},
+                              {"a time that returns", 0, 1, false, true, 2.0},
+                              {"both return, trigger first", 1, 0, true, true, 1.0},
+                              {"both return, time first", 0, 1, true, true, 2.0}};
+  for (const Row& row : rows) {
+    for (std::size_t k = 0; k < sources.size(); ++k) {
+      for (const bool guarded : {false, true}) {
+        INFO(row.what << ", source " << k << ", guarded " << guarded);
+        StateMachineTransition trigger{"a", row.trigger_returns ? "a" : "b"},
+            time{.source = "a", .target = row.time_returns ? "a" : "c"};
+        trigger.trigger = above(0.5), trigger.priority = row.trigger, trigger.action = append(1.0);
+        time.priority = row.time, time.action = append(2.0);
+        if (guarded)
+          time.guard = [](const Now& now) { return now.since - 1.0; };
+        else
+          time.after = 1.0;
+        const BlockRun<StateMachine> scene(nth(sources, k),
+                                           StateMachineOptions{.states = {"a", "b", "c"},
+                                                               .transitions = {time, trigger},
+                                                               .inputs = {"u"},
+                                                               .variables = {{"log", 0.0}}});
+        CHECK(scene.at({1.5}, 1)[0] == row.log);
+      }
+    }
+  }
+}
+
 TEST_CASE("of several transitions of a state to itself that are due at one time one is taken") {
   // The pulse rises at 1/2, 3/2 and 5/2 s. Each transition from "on" appends its digit to the log.
   struct Row {

@@ -10,6 +10,17 @@
 
 using namespace saltus;
 
+TEST_CASE("A relation that comes to exactly zero and turns back does not cross it") {
+  const auto to = [](int side) { return [side] { return side; }; };
+  const auto unasked = []() -> int { throw std::logic_error("the flow need not be asked"); };
+  for (const int from : {1, -1}) {
+    CHECK(only_touches(0.0, from, to(from)));
+    CHECK(!only_touches(0.0, from, to(-from)));
+    CHECK(!only_touches(0.0, from, to(0)));
+    CHECK(!only_touches(-1e-300 * from, from, unasked));
+  }
+}
+
 TEST_CASE(
     "A relation that is read again takes the side its value says, unless it was just crossed") {
   struct Reads {

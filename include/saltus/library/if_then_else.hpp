@@ -1,5 +1,6 @@
 // y = true_value if condition is true, otherwise false_value; elementwise.
-// condition: one boolean, true if not 0. true_value, false_value: scalars and vectors of one width.
+// condition: one boolean, or one real number, true if not 0 (see Switch). true_value, false_value:
+// scalars and vectors of one width.
 // out: that width. It is a Switch whose ports have the order of the sentence "if, then, else".
 #pragma once
 

@@ -4,8 +4,8 @@
 // hold_trigger. in, reset_value and out have the shape of initial_state; each trigger is one
 // boolean, read at ticks. Where reset_trigger is true at a tick and was false at the tick before,
 // y[k] becomes reset_value, or initial_state. While hold_trigger is true, y does not change.
-// Parameters "initial_state" (the value after a reset), "lower_limit", "upper_limit": y remains
-// between them, and does not wind up. in is read at once unless the method is forward; reset ports
+// Parameters "initial_state" (the value after a reset), "lower_limit", "upper_limit": y is
+// between them from the first tick on, after a reset too, and does not wind up. in is read at once unless the method is forward; reset ports
 // always.
 #pragma once
 

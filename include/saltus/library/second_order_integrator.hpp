@@ -2,7 +2,8 @@
 // in: acceleration. x, dx: outputs, views of the state. All have the shape of initial_position.
 // Parameters "lower_limit", "upper_limit", if given, and then "restitution". Where x reaches a limit
 // outward, x becomes the limit and dx becomes -restitution dx. With restitution 0, and where
-// rebounds accumulate, the entry rests at the limit until u points inward.
+// rebounds accumulate, the entry rests at the limit until u points inward. A run does not begin beyond
+// a limit of x or of dx: that is a BlockParameterError.
 // Parameters "lower_velocity_limit", "upper_velocity_limit", if given: an entry of dx that is at a
 // limit is constant while u points outward, and dx after a rebound is within the limits. Both ends
 // of that are located.

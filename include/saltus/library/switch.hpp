@@ -1,8 +1,8 @@
 // y = true_value if control is true, otherwise false_value; elementwise.
-// true_value, false_value: scalars and vectors of one width. control: one boolean, true if not 0;
-// with a threshold one real number, true if control >= threshold, located and held if y reaches a
-// derivative. A real signal that changes continuously needs the threshold: without it the solver
-// would see the jump.
+// true_value, false_value: scalars and vectors of one width. control: one boolean, or one real number,
+// true if not 0: one that moves through zero leaves y as it is, and one that rests at zero makes it
+// false meanwhile. With a threshold it is true if control >= threshold. Both are located and held if y
+// reaches a derivative.
 #pragma once
 
 #include <optional>

@@ -187,6 +187,10 @@ struct ZeroCrossing {
   /// discrete state or its mode: of several transitions of a state machine that are due at one time one
   /// is taken. The event is logged all the same.
   bool yields = false;
+  /// If true, and updates are due at the time at which it fires, its reset map runs in the pass after
+  /// them, with what they set off: so the priorities of a state machine decide between a transition that is
+  /// due by itself and a trigger that an update moves.
+  bool follows_updates = false;
 
   /// Whether its firing writes a state or a mode.
   bool has_effect() const { return reset_map || end_mode; }

@@ -52,6 +52,8 @@ struct Declarations {
   std::vector<Layout::Parameter> parameters;
   Eigen::VectorXd parameter_values;
   List<ParameterCheck> parameter_checks;
+  List<StartCheck> start_checks;
+  std::optional<ParameterIndex> seed;  ///< of its random numbers
   List<InputDeclaration> inputs;
   List<OutputDeclaration> outputs;
   List<Relation> relations;
@@ -124,6 +126,12 @@ class LeafSystem : public System {
   /// Refuses values of the parameters declared so far. The check is called at once with their
   /// default values, and with those of each context from which a run or an evaluation begins.
   void declare_parameter_check(ParameterCheck check);
+  /// Refuses continuous states from which a run would begin: those of a context that does not continue a
+  /// run.
+  void declare_start_check(StartCheck check);
+  /// Which parameter is the seed of the block's random numbers: Plan::describe() names the blocks that
+  /// have the same one.
+  void declare_seed(ParameterIndex seed);
 
   int declare_input_port(InputDeclaration input = {});
   int declare_output_port(OutputDeclaration output);

@@ -23,4 +23,8 @@ class ParameterValues {
 /// together. `block` is its name, or its path in the diagram that is run.
 using ParameterCheck = std::function<void(const std::string& block, const ParameterValues& values)>;
 
+/// Throws BlockParameterError for a continuous state from which a run of a block cannot begin at t [s].
+using StartCheck = std::function<void(const std::string& block, double t, const VectorView& state,
+                                      const ParameterValues& values)>;
+
 }  // namespace saltus

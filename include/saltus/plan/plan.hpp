@@ -21,6 +21,7 @@ template <class T>
 class Kept;
 struct FlowSeries;
 struct FlowDivisors;
+struct GuardWaves;
 
 /// An output or a relation: a value that other nodes read.
 struct Node {
@@ -158,6 +159,7 @@ struct Plan {
   std::vector<Tap> taps;
   std::vector<int> histories;  // leaves that keep a history
   std::vector<int> checked;    // leaves with parameter checks
+  std::vector<int> starting;   // leaves with start checks
   std::vector<int> controls;   // nodes: the control signals of leaves with guards
   struct {
     Walk derivatives, guards;
@@ -170,6 +172,7 @@ struct Plan {
   // These are made later than the plan, when somebody first needs them.
   std::shared_ptr<Kept<FlowSeries>> series;      ///< for the method `taylor`
   std::shared_ptr<Kept<FlowDivisors>> divisors;  ///< for the search for poles
+  std::shared_ptr<Kept<GuardWaves>> waves;       ///< for the looks at guards
 
   /// Says what was kept, folded and dropped, and why, with one line for each fact.
   std::string describe() const;

@@ -155,6 +155,7 @@ class DeclaresGuards(_core.LeafSystem):
             "initial_value": initial_value,
             "use_values_from_trigger_time": use_values_from_trigger_time,
             "yields": bool(getattr(reset_map, "yields", False)),
+            "follows_updates": bool(getattr(reset_map, "follows_updates", False)),
             "guard_derivatives": columns_of(
                 guard_derivatives, self, inputs_of(requires_inputs), size, "derivatives of guard"
             ),

@@ -80,7 +80,7 @@ class IntegratorDiscrete(Block, _core.IntegratorDiscrete):
     enable_external_reset
         Gives the input `reset_value`, which y[k] becomes instead. Needs `enable_reset`.
     enable_limits
-        y remains between the limits, and does not wind up beyond them.
+        y is between the limits from the first tick on, after a reset too, and does not wind up.
     lower_limit, upper_limit
         Numbers, vectors or matrices, one of them may be left out. They count only with
         `enable_limits`, and are parameters of the context then.

@@ -89,9 +89,9 @@ class SecondOrderIntegrator(Block, _core.SecondOrderIntegrator):
 
     Outputs: `x`, the position, and `dx`, the velocity. Where x reaches a limit outward it becomes
     the limit, and the velocity becomes -restitution times its value before. A body with restitution
-    0, or whose rebounds accumulate, rests at the limit until u points inward. A limit of the
-    position beyond which a context puts the body does not act until the body has been inside of it;
-    beyond a limit of the velocity dx is constant while u points outward.
+    0, or whose rebounds accumulate, rests at the limit until u points inward. A run that
+    would begin beyond a limit of x or dx, where a context puts the state or the limit there, raises
+    a `BlockParameterError`.
 
     Parameters
     ----------

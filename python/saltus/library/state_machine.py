@@ -136,6 +136,7 @@ class StateMachine(LeafSystem):
         self._declare_outputs(dict(outputs or {}))
         self._declare_start(self._first)
         events = events_of(transitions)
+        self._triggered = {each.source for each in transitions if each.trigger is not None}
         before: dict[str, list[Condition]] = {state: [] for state in self._states}
         returns: set[str] = set()  # the states with a transition to themselves so far
         for taken, event in sorted(zip(transitions, events, strict=True), key=order):
@@ -281,6 +282,7 @@ class StateMachine(LeafSystem):
         fires.__dict__["jumps"] = trigger is None and guard is not None
         edge = {"start_mode": source, "at_start": "ignore"}
         take.__dict__["yields"] = trigger is not None and again
+        take.__dict__["follows_updates"] = trigger is None and each.source in self._triggered
         self.declare_zero_crossing(
             fires,
             take,

@@ -42,7 +42,8 @@ struct StateMachineStep {
   std::vector<StateMachineAction> leave;  ///< those of the exit and of the transition
   StateMachineAction entry;
   std::vector<StateMachineDue> before;  ///< of the transitions that are taken in place of this one
-  bool behind_return;  ///< whether a transition of the source to itself comes before it
+  bool behind_return;    ///< whether a transition of the source to itself comes before it
+  bool beside_triggers;  ///< whether another transition of the source has a trigger
 
   /// The guard of a transition without a trigger: not below zero where that is due. It is below
   /// zero in all other states, so that the pass that enters the state carries it across zero if it

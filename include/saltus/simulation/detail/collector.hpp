@@ -36,7 +36,8 @@ class Collector {
   void take_back_jumps();
   /// Collects the edges of watched signals. True if a falling edge ended a hold.
   bool collect_edges();
-  /// Collects the zero crossings that act in this pass, and sorts all actions.
+  /// Collects the zero crossings that act in this pass, and sorts all actions. Those that follow updates
+  /// act in the pass after them.
   void collect_crossings();
   /// Whether some action counts as a change.
   bool acts() const;
@@ -47,6 +48,8 @@ class Collector {
   /// Whether the guard of a firing is a zero crossing; otherwise it is that of a relation.
   bool is_crossing(const Firing& firing) const;
   bool acts(const Action& action) const;
+  /// Whether a firing waits for the updates of this pass.
+  bool waits_for_updates(const GuardGroup& group) const;
   bool has_jumped(const Firing& firing) const;
   void collect_carried(std::size_t e);
 
@@ -61,6 +64,7 @@ class Collector {
   const Transition* transition_;
   Journal* journal_;
   Present* present_;
+  std::vector<Firing> waiting_;  // for the pass after the updates
 };
 
 }  // namespace saltus

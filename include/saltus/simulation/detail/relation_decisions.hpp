@@ -83,6 +83,19 @@ RelationSide decide_relation_side(int flow_to, int crossed_to, bool set_off, boo
   return {flow_to, flow_to == crossed_to && set_off && at_zero && leads_back()};
 }
 
+/// Whether a relation that came to exactly zero from the side `from` does not cross it, because the flow
+/// takes it back. It is at zero for no time, so its truth does not change. `flow_to()` is the side to
+/// which the flow leads.
+///
+///     value      flow to          touches
+///     not zero   not asked        no
+///     zero       where it was     yes
+///     zero       otherwise        no
+template <class FlowTo>
+bool only_touches(double g, int from, const FlowTo& flow_to) {
+  return g == 0.0 && flow_to() == from;
+}
+
 /// Decides how a relation is armed when integration continues.
 ///
 ///     opaque                                       as its truth, phase unchanged

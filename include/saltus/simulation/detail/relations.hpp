@@ -15,6 +15,8 @@ class Relations {
 
   /// A run begins: each truth follows the present sign. Relations may read each other.
   void begin(double t);
+  /// Whether a relation that fires at its root turns back there: it waits on its side then.
+  bool turns_back(const Firing& firing);
   /// A root was found: the relation takes the side of its crossing, because its value there may be
   /// exactly zero.
   void flip(const Firing& firing);

@@ -55,6 +55,7 @@ class GuardSearch : private PacedSearch {
     if (outdated()) look_up_guards();
     look_at_end(part, interpolate);
     const bool timed = follow_time();
+    if (timed && scans()) limit_pieces(part.from, part.to, interpolate);
     passes_ = scans() && part.points == nullptr && !timed;
     const double length = part.to - part.from;
     const bool skips = scans() && (!timed || shows(length)) && out_of_reach(length);

@@ -66,11 +66,16 @@ class LookPace {
     piece_ = 0.5 * length;
     return true;
   }
+  /// Looks must not be further apart than this [s] from here on.
+  void limit(double longest) {
+    longest_ = longest;
+    piece_ = std::min(piece_, longest);
+  }
   /// A piece of this length [s] hid nothing.
   void accept(double length, bool slow) {
     place_ += thresholds::golden_ratio - 1.0;
     place_ -= std::floor(place_);
-    if (slow && piece_ < all) piece_ = std::max(piece_, 2.0 * length);
+    if (slow && piece_ < all) piece_ = std::min(longest_, std::max(piece_, 2.0 * length));
   }
   /// The same, up to `time`, where a guard follows the time. Such a guard may be slow for a while, as a sine of
   /// which the amplitude comes and goes: the longer no guard has crossed zero, the further apart the looks
@@ -104,7 +109,7 @@ class LookPace {
 
  private:
   static constexpr double all = std::numeric_limits<double>::infinity();
-  double piece_ = all;  // [s]
+  double piece_ = all, longest_ = all;  // [s]
   double crossed_at_ = -all,
          crossed_in_ = 0.0;  // [s] the last piece with a crossing: its end, its length
   double place_ = 0.0;       // in [0, 1): multiples of the golden ratio

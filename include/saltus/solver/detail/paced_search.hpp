@@ -28,6 +28,12 @@ class PacedSearch : protected TimedSearch {
 
   bool shows(double length) const { return pace_.shows(length); }
 
+  /// The looks of a step must show the guards whose periods are known.
+  template <class Interpolate>
+  void limit_pieces(double from, double to, const Interpolate& interpolate) {
+    pace_.limit(longest_piece(from, to, interpolate));
+  }
+
   /// Keeps what outlives a restart: the pace, which guards count, and how fast they move.
   void keep() {
     kept_pace_ = pace_, kept_judge_ = judge_, kept_speed_ = speed_, kept_probe_ = probe_;

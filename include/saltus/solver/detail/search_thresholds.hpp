@@ -137,6 +137,10 @@ inline constexpr double line_share = golden_ratio - 1.0;
 /// [of the time since a guard crossed] How far apart looks may be where a guard follows the time: four of them
 /// are in a time half as long, in which it may be fast again. tests/laws/modulated_guards_test.cpp
 inline constexpr double slow_time = 1.0 / 8.0;
+/// [periods] How far apart looks may be at a guard by a sine of the time whose period is known. Four of them
+/// are in half a period, so that their third difference shows the sine, whatever its amplitude was before.
+/// tests/laws/resting_waves_test.cpp (as large)
+inline constexpr double wave_share = 1.0 / 8.0;
 /// [of a piece] How much shorter pieces are at most, where there is more than one: it costs an eighth of the looks.
 /// tests/laws/modulated_guards_test.cpp (as small)
 inline constexpr double uneven_part = 0.25;

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "saltus/base/detail/is_defined.hpp"
 #include "saltus/solver/detail/line_states.hpp"
 #include "saltus/solver/detail/piece_search.hpp"
 #include "saltus/solver/detail/search_thresholds.hpp"
 #include "saltus/solver/detail/time_probe.hpp"
+#include "saltus/solver/detail/wave_looks.hpp"
 
 namespace saltus {
 
@@ -17,10 +19,21 @@ class TimedSearch : protected PieceSearch {
  protected:
   TimedSearch(Machine& machine, GuardSet& guards, const LocatedGuards& located)
       : PieceSearch(machine, guards, located),
+        waves_(machine),
         before_(machine.plan().look_slots, 1.0),
         after_(machine.plan().look_slots, 1.0) {}
 
   [[gnu::always_inline]] bool follow_time() const { return probe_.follow(located_->follow_time); }
+
+  /// [s] How far apart the looks between two offsets may be, by the known periods of the guards.
+  template <class Interpolate>
+  double longest_piece(double from, double to, const Interpolate& interpolate) {
+    if (located_->follow_time != FollowsTime::yes || !waves_.any())
+      return std::numeric_limits<double>::infinity();
+    const bool monitors = (*guards_)[located_->slots.front()].monitor;
+    return waves_.longest(*guards_, {t0_ + from, t0_ + to, monitors},
+                          [&](double t, double* x) { interpolate(t - t0_, x); });
+  }
 
   /// A step is looked into: whether some functions have to be asked in it.
   void begin_asking() { asks_ = located_->follow_time == FollowsTime::perhaps && probe_.is_due(); }
@@ -40,6 +53,7 @@ class TimedSearch : protected PieceSearch {
   }
 
   TimeProbe probe_, kept_probe_;
+  WaveLooks waves_;
   List<double> before_;  // guards where a search begins, or a little later
 
  private:
