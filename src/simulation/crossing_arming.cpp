@@ -53,6 +53,7 @@ struct CrossingArming::Ask {
   double error;
 
   Index slot() const { return static_cast<Index>(k); }
+  int firing_side() const { return saltus::firing_side((*arming->guards_)[k].direction); }
   Flow& flow() const { return *arming->flow_; }
   const Eigen::VectorXd& before() const { return arming->transition_->before(); }
 
@@ -66,9 +67,16 @@ struct CrossingArming::Ask {
     if (std::isnan(flight) || arming->transition_->writes().of(*group) == 0) return false;
     return flow().speed_from(before(), *group, slot(), flight) * flight <= 4.0 * error;
   }
+  bool is_struck() const {
+    const double onward = firing_side() * slope();
+    return saltus::is_struck(onward, firing_side() * flow().slope_from(before(), *group, slot()));
+  }
   bool leads_back() const {
     return arming->transition_->writes().of(*group) > 0 &&
            flow().leads_back(*group, slot(), from, before());
+  }
+  bool moves_together() const {
+    return flow().moves_together(*group, slot(), arming->holds_->of_guard(k).states);
   }
   bool stops_at_jump() const {
     return arming->transition_->writes().of(*group) > 0 &&
@@ -120,6 +128,10 @@ void CrossingArming::arm_edge(std::size_t k) {
   if (arming.side == facts.came_from) guards_->set_base(k, before);
 }
 
+bool CrossingArming::may_be_struck(std::size_t k) const {
+  return (*guards_)[k].is_beyond() && facts_of(k, false).may_be_struck();
+}
+
 double CrossingArming::uncertainty(std::size_t k) {
   const auto slot = static_cast<Index>(k);
   const double slope = flow_->slope(group_of(k), slot);  // first: both keep looks at the flow
@@ -169,7 +181,7 @@ void CrossingArming::carry_out(std::size_t k, const Arming& arming, double error
     guards_->arm(k, arming.side);
   else
     guards_->wait(k, arming.side, error);
-  if (arming.then == Arming::Then::fire) present_->fire(k, arming.from);
+  if (arming.then == Arming::Then::fire) fire_at_zero(k, arming.from);
   if (arming.then != Arming::Then::rest) return;
   Holds::Hold& hold = holds_->of_guard(k);
   guards_->set_error(k, std::abs(present_->g[k]));  // without a monitor it fires again at once
@@ -179,6 +191,13 @@ void CrossingArming::carry_out(std::size_t k, const Arming& arming, double error
   }
   holds_->come_to_rest(hold, present_->t, false);
   if (hold.monitor.holding) contacts_->arm_crossing(k);
+}
+
+/// A guard that counts as zero fires away from a root: it is as far from zero as its value says.
+void CrossingArming::fire_at_zero(std::size_t k, int from) {
+  double& error = present_->note(k).location;
+  error = std::max(error, thresholds::kept_error * std::abs(present_->g[k]));
+  present_->fire(k, from);
 }
 
 bool CrossingArming::goes_against(const Firing& firing) {

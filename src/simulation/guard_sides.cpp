@@ -83,9 +83,16 @@ void GuardSides::look_at_crossing(std::size_t k) {
     guards_->turn(k, firing_side(guard.direction));
     return guards_->see(k, g);
   }
+  if (waits_at_zero(k)) return guards_->wait(k, guard.side, std::abs(g));
   // Its side does not change: the flow decides when integration continues (3.4).
   if (present_->note(k).put_at_zero = crossings_->is_at_zero(k); !present_->now(k).put_at_zero)
     present_->fire(k, guard.side);
+}
+
+/// Whether a guard that waits at zero is there still: the commit moved it by less than its uncertainty.
+bool GuardSides::waits_at_zero(std::size_t k) {
+  return (*guards_)[k].phase == Phase::waiting &&
+         std::abs(present_->g[k]) <= crossings_->uncertainty(k);
 }
 
 /// Whether the commit moved a guard, which was at zero beside the root of another one, off zero.
@@ -114,7 +121,7 @@ void GuardSides::arm(bool at_start) {
 }
 
 void GuardSides::arm_crossing(std::size_t k, bool at_start) {
-  const bool goes_on = !at_start && is_untouched(k);
+  const bool goes_on = !at_start && is_untouched(k) && !crossings_->may_be_struck(k);
   if (!goes_on && present_->now(k).turned_beside_root) continue_beside_root(k);
   guards_->stay(k, present_->g[k]);
   if (goes_on) return forget_firing(k);

@@ -22,7 +22,7 @@ constexpr double eps = 1e-12;  // an error bound for the rows
 struct Answers {
   std::optional<double> slope_ = {};
   std::optional<bool> low = {}, back = {}, turns = {}, round = {}, stops = {}, still = {},
-                      sure = {};
+                      sure = {}, struck = {}, together = false;
 
   template <class T>
   static T said(const std::optional<T>& answer, const char* what) {
@@ -36,6 +36,8 @@ struct Answers {
   bool reset_turns(int) const { return said(turns, "another reset"); }
   bool turned_round(int) const { return said(round, "the flow of the mode before"); }
   bool stood_still() const { return said(still, "the flow before"); }
+  bool is_struck() const { return said(struck, "the slopes before and after a reset"); }
+  bool moves_together() const { return said(together, "whether its states move together"); }
   bool is_slope_sure() const { return said(sure, "whether the slope is sure"); }
 };
 
@@ -125,6 +127,15 @@ TEST_CASE("The flow is asked about guards at zero, and about no others") {
   CHECK_FALSE(needs_flow(waits, unasked));
   CHECK(needs_flow({.g = 1e-10, .entered = true}, wide));
   CHECK_FALSE(needs_flow({.g = 1e-8, .entered = true}, wide));
+  // Struck by a reset, a rounding beyond zero.
+  CrossingFacts beyond{.direction = falls, .side = -1, .g = -1e-10, .effect = true, .resets = 1};
+  CHECK(needs_flow(beyond, wide));
+  beyond.g = -1e-8;
+  CHECK_FALSE(needs_flow(beyond, wide));
+  beyond.g = -1e-10, beyond.resets = 0;
+  CHECK_FALSE(needs_flow(beyond, unasked));
+  beyond.resets = 1, beyond.effect = false;
+  CHECK_FALSE(needs_flow(beyond, unasked));
   // An armed guard has an error until the next look, where it fires by decision: it is not at zero.
   CHECK_FALSE(needs_flow({.side = 1, .g = 1e-13, .error = eps, .resets = 1}, unasked));
 }
@@ -186,11 +197,21 @@ TEST_CASE("A guard at zero that has not fired: contact, dormant, or waiting") {
        {-1, eps},
        {},
        fires_from(1, -1)},
-      {"on its firing side already: no contact by a reset",
+      {"on its firing side already, and the reset sent it on: no contact",
        with([](auto& f) { f.resets = 1, f.side = -1; }),
        {-1, eps},
-       {},
+       {.struck = false},
        waits_at(-1)},
+      {"on its firing side already, and struck by the reset: contact",
+       with([](auto& f) { f.resets = 1, f.side = -1; }),
+       {-1, eps},
+       {.struck = true},
+       fires_from(1, -1)},
+      {"on its firing side already, and the flow leads off: no contact",
+       with([](auto& f) { f.resets = 1, f.side = -1; }),
+       {1, eps},
+       {},
+       waits_at(1)},
       {"dormant on its firing side: no side",
        with([](auto& f) { f.side = -1; }),
        {0, eps},
@@ -264,6 +285,11 @@ TEST_CASE("A guard that fired: off, back, at rest, or passed through") {
        {-1, eps},
        {.low = false, .back = true},
        rests_at(1)},
+      {"the flow leads straight back, and what would rest moves together: go on",
+       bounce,
+       {-1, eps},
+       {.low = false, .back = true, .together = true},
+       waits_at(1)},
       {"it was merely passed through",
        bounce,
        {-1, eps},
@@ -418,6 +444,15 @@ TEST_CASE("A slope is passed through with if it went the same way before, and wa
   CHECK_FALSE(passed_through(1e-7, 1.0));
   CHECK_FALSE(passed_through(1.0, 0.0));
   CHECK_FALSE(passed_through(1.0, -1.0));
+}
+
+TEST_CASE("A reset strikes what moves a guard where most of its slope is new") {
+  CHECK(is_struck(1.0, 0.0));
+  CHECK(is_struck(1.0, -1.0));
+  CHECK(is_struck(1.0, 0.49));
+  CHECK_FALSE(is_struck(1.0, 0.51));
+  CHECK_FALSE(is_struck(0.0, -1.0));
+  CHECK_FALSE(is_struck(-1.0, 0.0));
 }
 
 TEST_CASE("A root is false if the flow still leaves zero, or if nothing shows that it has left") {

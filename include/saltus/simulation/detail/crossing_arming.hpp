@@ -15,6 +15,8 @@ class CrossingArming {
 
   /// Arms a guard before integration continues. It gets a side, fires at once, or comes to rest.
   void arm(std::size_t k, bool at_start);
+  /// Whether a reset of this instant may have struck what is in contact, a rounding beyond zero.
+  bool may_be_struck(std::size_t k) const;
   /// The error of a guard at the present state by the rounding of the states and of the time.
   double uncertainty(std::size_t k);
   /// Whether a guard that a commit moved across zero is at zero within its error. If so, it has not
@@ -34,6 +36,7 @@ class CrossingArming {
   void arm_edge(std::size_t k);
   bool begins_as_wished(const GuardGroup& group, std::size_t k, bool at_start);
   void carry_out(std::size_t k, const Arming& arming, double error);
+  void fire_at_zero(std::size_t k, int from);
   bool reset_turns(const GuardGroup& group, std::size_t k, int from);
   double slope_before(const GuardGroup& group, std::size_t k);
   bool turned_round(const GuardGroup& group, std::size_t k, int side);

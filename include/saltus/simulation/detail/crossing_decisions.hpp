@@ -68,6 +68,8 @@ struct CrossingFacts {
   bool crosses_to(int to) const { return to != 0 && to == -armed_side(); }
   /// Whether a reset turned the flow round, to this side.
   bool is_turned_to(int to) const { return wrote() && crosses_to(to) && !is_beyond(); }
+  /// Whether a reset may have struck what is in contact, a rounding beyond zero: see decide_at_zero.
+  bool may_be_struck() const { return !fired && effect && wrote() && is_beyond(); }
 };
 
 /// Whether a zero crossing has to be armed by the flow. `uncertainty()` is the error of its value
@@ -79,11 +81,14 @@ struct CrossingFacts {
 ///     at zero, or within its error while it waits              yes, unless it waits and nothing
 ///                                                              was written: dormant as before
 ///     mode just entered, within `uncertainty()`                yes
+///     with an effect, on its firing side, within               yes
+///     `uncertainty()`, and a reset of this instant wrote
 ///     otherwise                                                no: it keeps the side it has
 template <class Uncertainty>
 bool needs_flow(const CrossingFacts& guard, const Uncertainty& uncertainty) {
   if (guard.direction == Direction::edge_detection) return false;
   if (guard.fired || guard.put_at_zero) return true;
+  if (guard.may_be_struck() && std::abs(guard.g) <= uncertainty()) return true;
   const bool waits = guard.phase == Phase::waiting;
   const bool at_zero = guard.g == 0.0 || (waits && std::abs(guard.g) <= guard.error) ||
                        (guard.entered && std::abs(guard.g) <= uncertainty());
@@ -122,6 +127,7 @@ bool leaves_along_surface(const CrossingFacts& guard, bool to_armed_side, const 
 /// Whether a reset turned the flow round into the surface of a guard: see decide_at_zero.
 template <class Ask>
 bool meets_turned_flow(const CrossingFacts& guard, int flow_to, const Ask& ask) {
+  if (guard.may_be_struck()) return flow_to == guard.side && ask.is_struck();
   if (!guard.is_turned_to(flow_to)) return false;
   const bool passed = guard.either() && guard.phase == Phase::waiting;
   return !passed || (guard.reset && ask.reset_turns(guard.side));
@@ -149,8 +155,9 @@ bool meets_turned_flow(const CrossingFacts& guard, int flow_to, const Ask& ask) 
 /// the surface: it counts as zero within the tolerance of the run, as after a lift-off.
 ///
 /// A guard of either direction is in contact at the start only if its slope is zero and the flow
-/// leads down. A reset turns the flow round only for a guard that is not on its firing side
-/// already. A guard of either direction that waits at zero has no firing side: it was passed through, and is
+/// leads down. A reset turns the flow round for a guard that is not on its firing side already. It
+/// strikes one that is there, within its uncertainty, if the guard moved there much more slowly
+/// before the reset: bodies that touch, and overlap by a rounding, meet. A guard of either direction that waits at zero has no firing side: it was passed through, and is
 /// in contact only if its own reset map sends the flow back.
 template <class Ask>
 Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
@@ -178,7 +185,8 @@ Arming decide_return(const CrossingFacts& guard, FlowSide flow, const Ask& ask, 
   if (guard.resets > 1 && ask.reset_turns(from))
     arming.then = Arming::Then::fire, arming.from = from;
   else if (low || ask.leads_back())
-    arming.then = Arming::Then::rest, arming.side = from;
+    arming.then = ask.moves_together() ? Arming::Then::go_on : Arming::Then::rest,
+    arming.side = from;
   return arming;
 }
 
@@ -191,8 +199,10 @@ Arming decide_return(const CrossingFacts& guard, FlowSide flow, const Ask& ask, 
 ///                                  armed side
 ///     yes         back             within its error   fire, if another reset of this instant
 ///                                                     wrote, and its own sends the flow off
-///     yes         back             within its error   rest, if the flight was too low, or the
-///                                                     guard was not merely passed through
+///     yes         back             within its error   go on, if the flight was too low, or the guard
+///                                                     was not merely passed through, and what would
+///                                                     rest moves together; waits on its armed side
+///     yes         back             within its error   rest, likewise, if it does not
 ///     yes         back             within its error   otherwise go on; waits on the flow's side
 ///     yes         back             beyond it, firing  as within its error, if it jumped, the states
 ///                                  side               are at its jump, and leave it as from rest
@@ -248,6 +258,12 @@ inline bool is_false_root(int from, double value, FlowSide flow) {
 /// the reset did not nearly stop it. Both arguments are slopes towards the firing side.
 constexpr bool passed_through(double onward, double before) {
   return before > 0.0 && onward > thresholds::stopped_slope * before;
+}
+
+/// Whether a reset struck what moves a guard, rather than sent it on. Both arguments are slopes
+/// towards the firing side.
+constexpr bool is_struck(double onward, double before) {
+  return onward > 0.0 && before < thresholds::struck_slope * onward;
 }
 
 }  // namespace saltus

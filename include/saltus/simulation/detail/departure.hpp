@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "saltus/simulation/detail/first_time.hpp"
@@ -106,6 +107,25 @@ class Departure : public FirstTime {
     x1_ = *x_ + d * f;
     look(t_ + d, x1_, slot, g_);
     return (g_[slot] - g0(slot)) / d;
+  }
+
+  /// Whether these states move together: each by itself moves the guard, and all of them do not. Two
+  /// bodies that fly on in contact do so; a block on a surface that other states or the time move does
+  /// not.
+  bool moves_together(const GuardGroup& group, Index slot, std::span<const Index> states) {
+    const double d = first_time(group, slot), before = g0(slot);
+    const double rounding = rounding_after(d, slot, guard_after(d, slot));
+    forget_looks();
+    const auto moved_by = [&](std::span<const Index> some) {
+      x1_ = *x_;
+      for (const Index i : some) x1_[i] += d * f_[i];
+      look(t_, x1_, slot, g_);
+      return std::abs(g_[slot] - before);
+    };
+    if (moved_by(states) > rounding) return false;
+    for (std::size_t i = 0; i < states.size(); ++i)
+      if (moved_by(states.subspan(i, 1)) > rounding) return true;
+    return false;
   }
 
   /// Whether the states are at the jump of a guard, whose value does not say so, and leave it as from

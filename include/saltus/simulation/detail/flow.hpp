@@ -1,6 +1,8 @@
 // Flow: to which side the flow takes a guard at the present state, computed when it is needed.
 #pragma once
 
+#include <span>
+
 #include "saltus/simulation/detail/crossing_decisions.hpp"
 #include "saltus/simulation/detail/departure.hpp"
 
@@ -37,6 +39,11 @@ class Flow {
   bool is_slope_sure(const GuardGroup& group, Index slot) {
     depart();
     return departure_.is_slope_sure(group, slot);
+  }
+  /// Whether these states move together, and the guard does not: see Departure::moves_together.
+  bool moves_together(const GuardGroup& group, Index slot, std::span<const Index> states) {
+    depart();
+    return departure_.moves_together(group, slot, states);
   }
   /// The rounding of a guard at the present state.
   double rounding(Index slot) {

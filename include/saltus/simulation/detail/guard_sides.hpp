@@ -48,6 +48,7 @@ class GuardSides {
   const Plan& plan() const { return machine_->plan(); }
   bool stays_at_root(std::size_t k) const;
   void look_at_crossing(std::size_t k);
+  bool waits_at_zero(std::size_t k);
   bool left_zero_beside_root(std::size_t k);
   void continue_beside_root(std::size_t k);
   void arm_crossing(std::size_t k, bool at_start);
