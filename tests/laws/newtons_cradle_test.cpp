@@ -207,7 +207,8 @@ struct Row {
                    std::swap(x[size + i], x[size + i + 1]);
                    next.set_continuous_state(x);
                  },
-             .direction = Direction::positive_then_non_positive});
+             .direction = Direction::positive_then_non_positive,
+             .holds = {{int(i), int(i) + 1, int(size + i), int(size + i) + 1}}});
     });
   }
 };
@@ -218,7 +219,7 @@ TEST_CASE("as many balls fly off as fly in, however many touch, swing after swin
   // Balls that touch overlap by roundings of their places, which grow with d. Swaps of velocities let
   // no ball pass: after an odd number of half turns as many balls are out at the other end.
   const auto method = GENERATE(from_range(methods));
-  const double tolerance = GENERATE(1e-4, 1e-6, 1e-9);
+  const double tolerance = GENERATE(1e-6, 1e-9);
   const Row row =
       GENERATE(Row{3, 1, 0.1, 1.0}, Row{4, 2, 1.0, 0.5}, Row{5, 1, 0.1, 0.543}, Row{5, 3, 0.7, 1.0},
                Row{6, 5, 0.0, 0.48}, Row{7, 5, 0.1, 0.297}, Row{8, 7, 0.103, 0.806});

@@ -260,10 +260,10 @@ constexpr bool passed_through(double onward, double before) {
   return before > 0.0 && onward > thresholds::stopped_slope * before;
 }
 
-/// Whether a reset struck what moves a guard, rather than sent it on. Both arguments are slopes
-/// towards the firing side.
-constexpr bool is_struck(double onward, double before) {
-  return onward > 0.0 && before < thresholds::struck_slope * onward;
+/// Whether a reset struck bodies in contact, which hardly moved towards each other or apart before.
+/// Both arguments are slopes towards the firing side.
+inline bool is_struck(double onward, double before) {
+  return onward > 0.0 && std::abs(before) < thresholds::struck_slope * onward;
 }
 
 }  // namespace saltus

@@ -89,10 +89,10 @@ inline constexpr double negligible_measure = 1e-9;
 /// [of the slope before a reset] A smaller slope is a stop, not a passage.
 /// tests/unit/crossing_decisions_test.cpp
 inline constexpr double stopped_slope = 1e-6;
-/// [of the slope after a reset] A smaller slope before it belongs to bodies in contact: those that
-/// pass through each other keep theirs, and a reset of another guard hardly changes it by more.
-/// tests/unit/crossing_decisions_test.cpp
-inline constexpr double struck_slope = 0.5;
+/// [of the slope after a reset] A smaller slope before it, of either sign, is that of bodies in contact: a
+/// method at a loose tolerance leaves them 1e-4 of the speeds of others. A guard that came from its
+/// firing side has a larger one. tests/unit/crossing_decisions_test.cpp
+inline constexpr double struck_slope = 1e-3;
 /// [of the speed before a reset] The same for a guard that jumps, whose slope is measured by the time
 /// to go back. A block that falls from rest has 1e-7 to 1e-4 of its speed when it has left the jump by
 /// the resolution of the time. tests/semantics/guards_jump_test.cpp
