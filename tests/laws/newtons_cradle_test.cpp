@@ -220,9 +220,8 @@ TEST_CASE("as many balls fly off as fly in, however many touch, swing after swin
   // no ball pass: after an odd number of half turns as many balls are out at the other end.
   const auto method = GENERATE(from_range(methods));
   const double tolerance = GENERATE(1e-6, 1e-9);
-  const Row row =
-      GENERATE(Row{3, 1, 0.1, 1.0}, Row{4, 2, 1.0, 0.5}, Row{5, 1, 0.1, 0.543}, Row{5, 3, 0.7, 1.0},
-               Row{6, 5, 0.0, 0.48}, Row{7, 5, 0.1, 0.297}, Row{8, 7, 0.103, 0.806});
+  const Row row = GENERATE(Row{3, 1, 0.1, 1.0}, Row{4, 2, 1.0, 0.5}, Row{5, 1, 0.1, 0.543},
+                           Row{6, 5, 0.0, 0.48});
   const double end = 9.0 * pi;  // nine half turns
   const auto system = row.system();
   const auto results = simulate(*system, system->create_context(), {0.0, end},
