@@ -61,10 +61,8 @@ void describe_seeds(std::string& out, const Plan& plan) {
   for (const auto& [seed, paths] : blocks) {
     if (paths.size() < 2) continue;
     out += text("  the random numbers of ", paths.size(),
-                " blocks are not independent, because all have the seed ", seed, ":");
-    for (std::size_t i = 0; i < paths.size() && i < 8; ++i)
-      out += text(i == 0 ? " '" : ", '", paths[i], "'");
-    out += paths.size() > 8 ? ", ...\n" : "\n";
+                " blocks are not independent, because all have the seed ", seed, ": ",
+                quoted_list(paths), "\n");
   }
 }
 

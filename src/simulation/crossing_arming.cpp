@@ -128,10 +128,6 @@ void CrossingArming::arm_edge(std::size_t k) {
   if (arming.side == facts.came_from) guards_->set_base(k, before);
 }
 
-bool CrossingArming::may_be_struck(std::size_t k) const {
-  return (*guards_)[k].is_beyond() && facts_of(k, false).may_be_struck();
-}
-
 double CrossingArming::uncertainty(std::size_t k) {
   const auto slot = static_cast<Index>(k);
   const double slope = flow_->slope(group_of(k), slot);  // first: both keep looks at the flow

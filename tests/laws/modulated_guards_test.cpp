@@ -4,6 +4,7 @@
 #include <random>
 
 #include "support/cases.hpp"
+#include "support/crossings.hpp"
 
 using namespace saltus;
 using namespace support;
@@ -22,33 +23,8 @@ struct Beat {
   }
 };
 
-/// The crossings of g in (0, end), with 200 points in each period, and the least that any extremum is away
-/// from zero.
-struct Crossings {
-  std::vector<double> times;
-  double margin = infinite;
-
-  explicit Crossings(const Beat& g) {
-    const double step = 2.0 * pi / g.fast / 200.0;
-    double before = g(-step), at = g(0.0);
-    for (double t = 0.0; t < end; t += step) {
-      const double next = g(t + step);
-      if ((at - before) * (next - at) <= 0.0) margin = std::min(margin, std::abs(at));
-      if ((at > 0.0) != (next > 0.0)) times.push_back(root(g, t, t + step));
-      before = at, at = next;
-    }
-  }
-
- private:
-  static double root(const Beat& g, double low, double high) {
-    const bool above = g(low) > 0.0;
-    for (int i = 0; i < 60; ++i) {
-      const double middle = 0.5 * (low + high);
-      ((g(middle) > 0.0) == above ? low : high) = middle;
-    }
-    return low;
-  }
-};
+/// With 200 points in each period.
+Crossings crossings_of(const Beat& g) { return {g, 2.0 * pi / g.fast / 200.0, end}; }
 
 /// A slow state, whose steps are as long as the tolerance allows, and the guard.
 std::shared_ptr<Leaf> scene(const Beat& g, bool counts) {
@@ -74,7 +50,7 @@ std::vector<Beat> beats(std::size_t count) {
   while (found.size() < count) {
     const Beat beat{std::pow(10.0, 0.5 + 1.3 * part(random)), std::pow(10.0, -0.9 + part(random)),
                     2.0 * pi * part(random), 0.1 + 0.6 * part(random)};
-    if (Crossings(beat).margin > 0.03) found.push_back(beat);
+    if (crossings_of(beat).margin > 0.03) found.push_back(beat);
   }
   return found;
 }
@@ -86,7 +62,7 @@ TEST_CASE("the crossings of a guard whose amplitude comes and goes are found", "
   const bool counts = GENERATE(false, true);
   int k = 0;
   for (const Beat& beat : beats(24)) {
-    const std::vector<double> expected = Crossings(beat).times;
+    const std::vector<double> expected = crossings_of(beat).times;
     for (const double rtol : {1e-2, 1e-3, 1e-4, 1e-6}) {
       const auto leaf = scene(beat, counts);
       const auto results = simulate(*leaf, leaf->create_context(), {0.0, end},

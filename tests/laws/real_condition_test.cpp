@@ -1,5 +1,5 @@
 // A real number as the condition of a choice: true while it is not zero. A number that moves through
-// zero is there for no time, so the choice does not change; one that rests at zero is false meanwhile.
+// zero is there for no time, so the choice does not change; a number that rests at zero is false meanwhile.
 #include <algorithm>
 #include <functional>
 #include <numbers>

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "support/cases.hpp"
+#include "support/crossings.hpp"
 
 using namespace saltus;
 using namespace support;
@@ -13,20 +14,20 @@ namespace resting_waves {
 const double pi = std::acos(-1.0);
 constexpr double end = 30.0;
 
-enum class Shape2 { pulsed, lifted, chirped };
+enum class Kind { pulsed, lifted, chirped };
 
 /// A fast sine that is zero for half of each slow period, or far from zero.
 struct Wave {
-  Shape2 shape;
+  Kind shape;
   double fast, slow, phase, level;
 
   template <class T>
   T operator()(const T& t) const {
     using std::cos, std::sin, std::max;
     const T wave = sin(fast * t + phase), slowly = cos(slow * t + 0.3);
-    if (shape == Shape2::lifted) return wave - 1.4 + 1.2 * slowly;
+    if (shape == Kind::lifted) return wave - 1.4 + 1.2 * slowly;
     const T part = positive(slowly);
-    if (shape == Shape2::chirped) return part * sin((fast + 0.02 * fast * t) * t + phase) - level;
+    if (shape == Kind::chirped) return part * sin((fast + 0.02 * fast * t) * t + phase) - level;
     return part * wave - level;
   }
   static double positive(double v) { return std::max(v, 0.0); }
@@ -35,34 +36,8 @@ struct Wave {
   }
 };
 
-/// The crossings of g in (0, end), with 400 points in each period, and the least that any extremum is away
-/// from zero.
-struct Crossings {
-  std::vector<double> times;
-  double margin = infinite;
-
-  explicit Crossings(const Wave& g) {
-    const double step = 2.0 * pi / g.fast / 400.0;
-    double before = g(-step), at = g(0.0);
-    for (double t = 0.0; t < end; t += step) {
-      const double next = g(t + step);
-      if ((at - before) * (next - at) <= 0.0) margin = std::min(margin, std::abs(at));
-      if ((at > 0.0) != (next > 0.0)) times.push_back(root(g, t, t + step));
-      before = at, at = next;
-    }
-    while (!times.empty() && times.back() > end) times.pop_back();
-  }
-
- private:
-  static double root(const Wave& g, double low, double high) {
-    const bool above = g(low) > 0.0;
-    for (int i = 0; i < 60; ++i) {
-      const double middle = 0.5 * (low + high);
-      ((g(middle) > 0.0) == above ? low : high) = middle;
-    }
-    return low;
-  }
-};
+/// With 400 points in each period.
+Crossings crossings_of(const Wave& g) { return {g, 2.0 * pi / g.fast / 400.0, end}; }
 
 std::shared_ptr<Leaf> scene(const Wave& g, bool counts) {
   return make_leaf("leaf", [=](Leaf& l) {
@@ -77,7 +52,7 @@ std::shared_ptr<Leaf> scene(const Wave& g, bool counts) {
 }
 
 /// Random waves of which no extremum is near zero, see modulated_guards_test.
-std::vector<Wave> waves(Shape2 shape, std::size_t count) {
+std::vector<Wave> waves(Kind shape, std::size_t count) {
   std::vector<Wave> found;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> part(0.0, 1.0);
@@ -85,7 +60,7 @@ std::vector<Wave> waves(Shape2 shape, std::size_t count) {
     const Wave wave{shape, std::pow(10.0, 0.5 + 1.8 * part(random)),
                     std::pow(10.0, -0.9 + part(random)), 2.0 * pi * part(random),
                     0.1 + 0.6 * part(random)};
-    if (Crossings(wave).margin > 0.02) found.push_back(wave);
+    if (crossings_of(wave).margin > 0.02) found.push_back(wave);
   }
   return found;
 }
@@ -97,10 +72,10 @@ using namespace resting_waves;
 TEST_CASE("the crossings of a sine that rests for some periods are found", "[laws][guards]") {
   const auto method = GENERATE(from_range(methods));
   const bool counts = GENERATE(false, true);
-  const auto shape = GENERATE(Shape2::pulsed, Shape2::lifted, Shape2::chirped);
+  const auto shape = GENERATE(Kind::pulsed, Kind::lifted, Kind::chirped);
   int k = 0;
   for (const Wave& wave : waves(shape, 40)) {
-    const std::vector<double> expected = Crossings(wave).times;
+    const std::vector<double> expected = crossings_of(wave).times;
     for (const double rtol : {1e-2, 1e-3, 1e-6}) {
       const auto leaf = scene(wave, counts);
       const auto results = simulate(*leaf, leaf->create_context(), {0.0, end},

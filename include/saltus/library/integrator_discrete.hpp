@@ -5,8 +5,8 @@
 // boolean, read at ticks. Where reset_trigger is true at a tick and was false at the tick before,
 // y[k] becomes reset_value, or initial_state. While hold_trigger is true, y does not change.
 // Parameters "initial_state" (the value after a reset), "lower_limit", "upper_limit": y is
-// between them from the first tick on, after a reset too, and does not wind up. in is read at once unless the method is forward; reset ports
-// always.
+// between them from the first tick on, after a reset too, and does not wind up. in is read at once
+// unless the method is forward; reset ports always.
 #pragma once
 
 #include <optional>

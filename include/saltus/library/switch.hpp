@@ -1,6 +1,6 @@
 // y = true_value if control is true, otherwise false_value; elementwise.
 // true_value, false_value: scalars and vectors of one width. control: one boolean, or one real number,
-// true if not 0: one that moves through zero leaves y as it is, and one that rests at zero makes it
+// true if not 0. Where the number moves through zero, y does not change; where it rests at zero, it is
 // false meanwhile. With a threshold it is true if control >= threshold. Both are located and held if y
 // reaches a derivative.
 #pragma once

@@ -82,8 +82,8 @@ class Switch(Block, _core.Switch):
     Parameters
     ----------
     threshold
-        Without it control is a boolean, or a real signal that is true while it does not rest at 0:
-        one that moves through 0 stays true. With a number, in the unit of control, control is a
+        Without it control is a boolean, or a real signal that is true while it does not rest at 0,
+        also where it moves through 0. With a number, in the unit of control, control is a
         real signal, and true at or above the number; the times at which it passes are located as events.
         The number is the parameter `threshold` of the context.
     name
@@ -179,7 +179,7 @@ class HitCrossing(Block, _core.HitCrossing):
 class IfThenElse(Block, _core.IfThenElse):
     """y = true_value if condition else false_value, entry by entry: the names of its inputs,
     condition, true_value, false_value in this order. The condition is a boolean, or a real signal
-    that is true while it does not rest at 0: one that moves through 0 stays true.
+    that is true while it does not rest at 0, also where it moves through 0.
 
     Parameters
     ----------

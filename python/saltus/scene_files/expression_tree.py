@@ -113,7 +113,7 @@ class TreeBuilder(ExpressionText):
         return functools.reduce(lambda a, b: numpy_call("logical_and", a, b), found)
 
     def side(self, node: ast.Compare, i: int, level: int) -> ast.expr:
-        """A side of a comparison; the only place where the name of a mode stands for its number."""
+        """A side of a comparison. Only here the name of a mode means its number."""
         sides = [node.left, *node.comparators]
         side = sides[i]
         word = self.scope.get(side.id) if isinstance(side, ast.Name) else None

@@ -9,7 +9,7 @@
 namespace saltus::detail {
 
 /// The relation |u| > 0 of the scalar input `input`. A number that moves through zero leaves the guard
-/// on its side, so that only one that rests at zero is false. Over a held input it is no guard.
+/// on its side, so only a number that rests at zero is false. A held input needs no guard.
 inline Relation is_not_zero(int input) {
   return {.name = "not_zero",
           .true_at_zero = false,

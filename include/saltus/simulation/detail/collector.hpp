@@ -36,8 +36,8 @@ class Collector {
   void take_back_jumps();
   /// Collects the edges of watched signals. True if a falling edge ended a hold.
   bool collect_edges();
-  /// Collects the zero crossings that act in this pass, and sorts all actions. Those that follow updates
-  /// act in the pass after them.
+  /// Collects the zero crossings that act in this pass, and sorts all actions. A zero crossing that
+  /// follows updates acts in the pass after the updates.
   void collect_crossings();
   /// Whether some action counts as a change.
   bool acts() const;

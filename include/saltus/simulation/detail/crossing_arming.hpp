@@ -16,7 +16,9 @@ class CrossingArming {
   /// Arms a guard before integration continues. It gets a side, fires at once, or comes to rest.
   void arm(std::size_t k, bool at_start);
   /// Whether a reset of this instant may have struck what is in contact, a rounding beyond zero.
-  bool may_be_struck(std::size_t k) const;
+  bool may_be_struck(std::size_t k) const {
+    return (*guards_)[k].is_beyond() && facts_of(k, false).may_be_struck();
+  }
   /// The error of a guard at the present state by the rounding of the states and of the time.
   double uncertainty(std::size_t k);
   /// Whether a guard that a commit moved across zero is at zero within its error. If so, it has not

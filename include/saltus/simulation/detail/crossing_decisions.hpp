@@ -154,11 +154,12 @@ bool meets_turned_flow(const CrossingFacts& guard, int flow_to, const Ask& ask) 
 /// A guard with an effect whose mode was just entered, and whose slope is zero, leaves zero along
 /// the surface: it counts as zero within the tolerance of the run, as after a lift-off.
 ///
-/// A guard of either direction is in contact at the start only if its slope is zero and the flow
-/// leads down. A reset turns the flow round for a guard that is not on its firing side already. It
-/// strikes one that is there, within its uncertainty, if the guard moved there much more slowly
-/// before the reset: bodies that touch, and overlap by a rounding, meet. A guard of either direction that waits at zero has no firing side: it was passed through, and is
-/// in contact only if its own reset map sends the flow back.
+/// A guard of either direction is in contact at the start only if its slope is zero and the
+/// flow leads down. A reset turns the flow round for a guard that is not on its firing side
+/// already. A reset strikes a guard that is on its firing side, within its uncertainty, if the
+/// guard hardly moved before: bodies that touch, and overlap by a rounding, meet. A guard of
+/// either direction that waits at zero has no firing side: it was passed through, and is in
+/// contact only if its own reset map sends the flow back.
 template <class Ask>
 Arming decide_at_zero(const CrossingFacts& guard, FlowSide flow, const Ask& ask) {
   const int armed = guard.armed_side();

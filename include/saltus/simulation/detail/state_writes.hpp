@@ -21,8 +21,8 @@ class StateWrites {
   void add(int leaf) { ++counts_[leaf], any_ = true; }
 
   int of(int leaf) const { return counts_[leaf]; }
-  /// The number of those that wrote a continuous state which changes a guard. The others say nothing
-  /// about the flow of that guard.
+  /// How many reset maps wrote a continuous state that changes a guard. Other reset maps say nothing
+  /// about the flow of this guard.
   int of(const GuardGroup& guard) const {
     if (!any_) return 0;
     int sum = 0;

@@ -11,8 +11,8 @@ class StopCrossings {
  public:
   StopCrossings(InstantParts& parts, MonitorLog& monitors) : parts_(&parts), monitors_(&monitors) {}
 
-  /// Time events are due at the stop at t [s], or the run ends there. Adds the guards that cross there, but for
-  /// rounding, to those that fired at the root. Returns whether guards fire. `longest` [s] is the time to the
+  /// Time events are due at the stop at t [s], or the run ends there. The guards that fired at the root are
+  /// known; this adds the guards that cross at t but for rounding. Returns whether guards fire. `longest` [s] is the time to the
   /// end of the run.
   bool meets(double t, double longest);
   /// Whether the guards that fired at a root, which was located at `root` [s], are at zero at t too, within
