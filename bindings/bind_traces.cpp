@@ -22,7 +22,12 @@ constexpr std::array roles{"ode",       "jacobian",    "sparse_jacobian", "outpu
 
 py::tuple as_tuple(const Dimensions& dimensions) { return py::tuple(py::cast(dimensions)); }
 
-/// The number of numbers that a function returns; None for a state.
+/// Whether the shapes of the outputs are known, as they are once a plan was made.
+bool knows_outputs(const BlockTraces& block) {
+  return block.outputs.size() == block.leaf->declarations().outputs.size();
+}
+
+/// The number of numbers that a function returns; None for a state, and for an output that is not known.
 py::object result_size(const BlockTraces& block, const Function& function) {
   const Declarations& d = block.leaf->declarations();
   const auto place = static_cast<std::size_t>(function.index);
@@ -35,7 +40,7 @@ py::object result_size(const BlockTraces& block, const Function& function) {
     case Role::sparse_jacobian:
       return py::int_(d.continuous.sparsity->size());
     case Role::output:
-      return py::int_(block.outputs[place].size);
+      return knows_outputs(block) ? py::object(py::int_(block.outputs[place].size)) : py::none();
     case Role::guard:
       return py::int_(d.zero_crossings[place].size);
     case Role::delay:
@@ -52,7 +57,7 @@ py::object result_size(const BlockTraces& block, const Function& function) {
 py::object result_shape(const BlockTraces& block, const Function& function) {
   const Dimensions& state = block.leaf->state_dimensions();
   if (function.role == Role::ode && state.size() == 2) return as_tuple(state);
-  if (function.role != Role::output) return py::none();
+  if (function.role != Role::output || !knows_outputs(block)) return py::none();
   const Shape& shape = nth(block.outputs, function.index);
   return shape.is_matrix() ? py::object(as_tuple(dimensions_of(shape))) : py::object(py::none());
 }
@@ -152,6 +157,7 @@ void bind_traces(py::module_& module) {
       .def_property_readonly("complete", &Traces::complete)
       .def("guess_shapes", &Traces::guess_shapes)
       .def("set", &Traces::set)
+      .def("share", &Traces::share)
       .def("blocks", &facts_of_all);
   module.def("trace", &trace);
 }

@@ -1,9 +1,11 @@
 #include "numbers.hpp"
 #include "interpreter.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace saltus::python {
@@ -260,6 +262,19 @@ bool read_truths(py::handle result, VectorRef out) {
   if (!array || array.dtype().kind() != 'b' || array.size() != out.size()) return false;
   out = (2.0 * as_vector(Array(array)).array() - 1.0).matrix();
   return true;
+}
+
+bool has_integer(py::handle result) {
+  if (PyFloat_Check(result.ptr())) return false;
+  if (PyLong_CheckExact(result.ptr())) return true;
+  if (PyList_CheckExact(result.ptr()) || PyTuple_CheckExact(result.ptr()))
+    return std::ranges::any_of(
+        std::span(PySequence_Fast_ITEMS(result.ptr()),
+                  static_cast<std::size_t>(PySequence_Fast_GET_SIZE(result.ptr()))),
+        [](PyObject* item) { return PyLong_CheckExact(item) != 0; });
+  const py::array array = py::array::ensure(result);
+  if (!array) return PyErr_Clear(), false;
+  return array.dtype().kind() == 'i' || array.dtype().kind() == 'u';
 }
 
 void bind_numbers(py::module_& module) {

@@ -37,6 +37,9 @@ void read_any_numbers(py::handle result, VectorRef out, const std::string& what)
 /// entries.
 bool read_truths(py::handle result, VectorRef out);
 
+/// Whether a result is an integer or has one among its entries.
+bool has_integer(py::handle result);
+
 Dimensions dimensions_of(const py::array& array);
 
 /// Refuses an array of two dimensions or more in place of a matrix of other rows and columns, whose

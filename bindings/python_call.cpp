@@ -245,6 +245,12 @@ void PythonLeaf::fill(int k, const At& at, VectorRef out) const {
   if (in_place(function)) return take_out(function, frame, result, out);
   if (gives_matrix(function))
     require_matrix(result, expected_of(function, out.size()), text(whose(function), " returned"));
+  read_result(k, at, result, out);
+  if (function.role == Role::guard) refuse_integer_truth(function, result, out);
+}
+
+void PythonLeaf::read_result(int k, const At& at, py::handle result, VectorRef out) const {
+  const Function& function = functions_[k];
   if (read_plain_numbers(result, out)) return;
   if (is_guard(function.role) && read_truths(result, out)) return;
   try {
@@ -253,6 +259,23 @@ void PythonLeaf::fill(int k, const At& at, VectorRef out) const {
     if (function.role == Role::output) explain_result(k, at, error);
     throw;
   }
+}
+
+/// A guard that is the integer 0 is probably a truth, which 0 and 1 stand for. But a number that
+/// leaves zero has not come to zero, so such a guard would not fire where it becomes 1.
+void PythonLeaf::refuse_integer_truth(const Function& function, py::handle result,
+                                      VectorRef out) const {
+  if (!(out.array() == 0.0).any() || !has_integer(result)) return;
+  const Direction direction = declarations().zero_crossings[function.index].direction;
+  if (direction != Direction::negative_then_non_negative && direction != Direction::crosses_zero)
+    return;
+  throw ModelError(
+      text(whose(function),
+           " returned the integer 0, which is on neither side of zero: with the direction '",
+           to_string(direction),
+           "' it would not fire where it becomes 1. Return a truth, such as `return x > 0.3`, or a "
+           "float "
+           "if the event is where the number comes to zero"));
 }
 
 /// The result of an output does not fit: its shape may have been a guess.

@@ -108,6 +108,8 @@ class PythonLeaf final : public LeafSystem {
   py::list positional(const Function& function) const;
   [[noreturn]] void throw_raised(const Function& function, const Frame& frame) const;
   void fill(int k, const At& at, VectorRef out) const;
+  void read_result(int k, const At& at, py::handle result, VectorRef out) const;
+  void refuse_integer_truth(const Function& function, py::handle result, VectorRef out) const;
   void take_out(const Function& function, const Frame& frame, py::handle result,
                 VectorRef out) const;
   Frame& prepare(std::unique_ptr<Frame>& frame, const Function& function, const At& at,

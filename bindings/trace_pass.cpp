@@ -24,17 +24,19 @@ std::shared_ptr<const Declarations> TracePass::with_shapes(const Plan& plan, con
 std::shared_ptr<const Declarations> TracePass::declarations_of(std::size_t number) {
   const BlockTraces& block = traces_->blocks()[number];
   slots_.resize(traces_->blocks().size());
+  shared_.resize(slots_.size());
+  shared_[number] = block.shared;
   std::vector<Slot>& slots = slots_[number];
   slots.clear();
   for (const Trace& trace : block.traces) slots.push_back(std::make_shared<Trace>(trace));
-  return traced_declarations(*block.leaf, block.outputs, slots);
+  return traced_declarations(*block.leaf, block.outputs, slots, block.shared);
 }
 
 bool TracePass::replace() {
   bool all = true;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const BlockTraces& block = traces_->blocks()[i];
-    all = replace_traces(*block.leaf, slots_[i], block.traces) && all;
+    all = replace_traces(*block.leaf, slots_[i], block.traces) && block.shared == shared_[i] && all;
   }
   return all;
 }

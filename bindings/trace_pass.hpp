@@ -36,6 +36,7 @@ class TracePass final : public Refinement {
 
   std::shared_ptr<Traces> traces_;
   std::vector<std::vector<Slot>> slots_;  // of each block
+  std::vector<SharedOutside> shared_;     // of each block, when the plan was made
   py::object trace_block_;
 };
 

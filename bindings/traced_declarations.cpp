@@ -243,8 +243,11 @@ void DeclarationWriter::note_touches(ZeroCrossing& crossing, int index) {
 
 std::shared_ptr<const Declarations> traced_declarations(const PythonLeaf& leaf,
                                                         const std::vector<Shape>& outputs,
-                                                        const std::vector<Slot>& slots) {
-  return std::make_shared<const Declarations>(DeclarationWriter(leaf, slots).write(outputs));
+                                                        const std::vector<Slot>& slots,
+                                                        const SharedOutside& shared) {
+  Declarations declared = DeclarationWriter(leaf, slots).write(outputs);
+  declare_shared(leaf, shared, declared);
+  return std::make_shared<const Declarations>(std::move(declared));
 }
 
 }  // namespace saltus::python

@@ -14,7 +14,8 @@ namespace saltus::python {
 /// functions. `outputs` are the shapes of the outputs: no function is called again to find them.
 std::shared_ptr<const Declarations> traced_declarations(const PythonLeaf& leaf,
                                                         const std::vector<Shape>& outputs,
-                                                        const std::vector<Slot>& slots);
+                                                        const std::vector<Slot>& slots,
+                                                        const SharedOutside& shared);
 
 /// Puts traces of the same functions into the slots. Returns false, and does nothing, if they need
 /// more than a plan of the old traces computes. It must not be called during a run.

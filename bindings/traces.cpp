@@ -61,6 +61,10 @@ void Traces::set(std::size_t number, std::vector<Trace> traces) {
   block.traced = true;
 }
 
+void Traces::share(std::size_t number, std::vector<int> readers, std::vector<int> writers) {
+  blocks_.at(number).shared = {std::move(readers), std::move(writers)};
+}
+
 std::optional<std::size_t> Traces::number_of(const LeafSystem& leaf) const {
   const auto found = numbers_.find(&leaf);
   return found == numbers_.end() ? std::nullopt : std::optional(found->second);

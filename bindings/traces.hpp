@@ -9,6 +9,7 @@
 #include "plan_tapes.hpp"
 #include "python_leaf.hpp"
 #include "saltus/plan/plan.hpp"
+#include "shared_outside.hpp"
 #include "trace.hpp"
 
 namespace saltus::python {
@@ -21,6 +22,7 @@ struct BlockTraces {
   std::vector<Shape> inputs = {}, outputs = {};  // unknown before it is traced
   bool traced = false;
   std::vector<Trace> traces = {};  // of the functions that have one
+  SharedOutside shared = {};
 
   void take_shapes(const Plan& plan, const PlanLeaf& where);
   /// Guesses the shapes of a system that cannot run yet. Open inputs count as their ports say, or
@@ -39,6 +41,7 @@ class Traces {
   bool complete() const;
   void guess_shapes();
   void set(std::size_t number, std::vector<Trace> traces);
+  void share(std::size_t number, std::vector<int> readers, std::vector<int> writers);
 
   std::vector<BlockTraces>& blocks() { return blocks_; }
   /// The counts of the instructions that the runs of the system have interpreted.

@@ -246,6 +246,11 @@ void LeafSystem::declare_seed(ParameterIndex seed) {
   declared_.seed = seed;
 }
 
+void LeafSystem::declare_shared_outside() {
+  require_unused();
+  declared_.shares_outside = true;
+}
+
 int LeafSystem::declare_input_port(InputDeclaration input) {
   require_unused();
   detail::name_it(input.name, declared_.inputs, "in_", name());

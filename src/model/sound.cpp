@@ -47,6 +47,8 @@ void require_sound(const Continuation::Firings& firings) {
   require(firings.times.size() <= 4,
           text(firings.times.size(), " times of firings; expected at most 4"));
   require(all_finite(firings.times) && all_finite(firings.after), "a firing that is not finite");
+  require(std::isfinite(firings.longest) && firings.longest >= 0.0,
+          text("a longest gap of ", firings.longest, " s"));
   require(std::ranges::is_sorted(firings.times, std::greater<>()),
           "times of firings that are not from late to early");
 }

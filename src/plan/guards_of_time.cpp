@@ -118,7 +118,8 @@ class FastGuards {
               has_turn(values.graph(), signals)};
     }
     if (!has(reads, Reads::time)) return {};
-    return {reads == Reads::everything ? FollowsTime::perhaps : FollowsTime::yes};
+    const bool undeclared = (reads | Reads::outside) == (Reads::everything | Reads::outside);
+    return {undeclared ? FollowsTime::perhaps : FollowsTime::yes};
   }
 
   bool are_continuous(const std::vector<int>& nodes) const {

@@ -2,6 +2,7 @@
 #include "saltus/plan/islands.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -54,6 +55,7 @@ class Finder {
       if (blocks_.live[i]) sets_.enliven(i);
     join_wires();
     join_queue();
+    join_outside();
     join_event_wires(delayed);
     collect();
     collect_event_wires();
@@ -100,13 +102,22 @@ class Finder {
 
   /// All queued zero crossings share one queue, and one random order of ties.
   void join_queue() {
-    std::vector<int> queued;
-    for (int i = 0; i < n_; ++i) {
-      if (std::ranges::any_of(leaf(i).declared().zero_crossings, &ZeroCrossing::is_queued))
-        queued.push_back(i);
-    }
-    if (queued.size() < 2) return;
-    join(queued, queued.front(), "the queue of executions");
+    join_all("the queue of executions", [](const Declarations& declared) {
+      return std::ranges::any_of(declared.zero_crossings, &ZeroCrossing::is_queued);
+    });
+  }
+
+  /// A value outside of the system has one present value.
+  void join_outside() {
+    join_all("values that callbacks write outside of the states", &Declarations::shares_outside);
+  }
+
+  template <class Which>
+  void join_all(const char* name, Which which) {
+    std::vector<int> all;
+    for (int i = 0; i < n_; ++i)
+      if (std::invoke(which, leaf(i).declared())) all.push_back(i);
+    if (all.size() > 1) join(all, all.front(), name);
   }
 
   /// Wires without a delay always join: an instant is one for all blocks that it reaches.

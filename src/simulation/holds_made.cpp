@@ -4,6 +4,7 @@
 
 #include "saltus/base/list.hpp"
 #include "saltus/simulation/detail/holds.hpp"
+#include "saltus/simulation/detail/thresholds.hpp"
 
 namespace saltus {
 
@@ -21,6 +22,14 @@ Holds::Holds(Machine& machine, const GuardSet& guards, const SimulatorOptions& o
   changed_.reserve(of_guards_.size() + of_edges_.size());
 }
 
+/// The default tolerance says nothing of a scene whose times are shorter still, so a gap also has to
+/// be short beside the longest one.
+ZenoMonitor Holds::new_monitor(std::optional<double> own) const {
+  const double tolerance = own.value_or(options_->zeno_tolerance);
+  const double share = tolerance == default_zeno_tolerance ? thresholds::short_gap : 1.0;
+  return ZenoMonitor(tolerance, options_->rtol, share);
+}
+
 void Holds::add_guards(const GuardSet& guards) {
   const Plan& plan = machine_->plan();
   for (const Guard& guard : guards.all()) {
@@ -29,8 +38,7 @@ void Holds::add_guards(const GuardSet& guards) {
     if (!group.is_crossing() || group.queued || !plan.crossing_of(group).has_effect()) continue;
     const ZeroCrossing& crossing = plan.crossing_of(group);
     const PlanLeaf& leaf = plan.leaf(group.leaf);
-    hold = {.monitor = ZenoMonitor(crossing.zeno_tolerance.value_or(options_->zeno_tolerance),
-                                   options_->rtol),
+    hold = {.monitor = new_monitor(crossing.zeno_tolerance),
             .leaf = group.leaf,
             .source = guard.group,
             .entry = guard.entry,
@@ -62,14 +70,12 @@ void Holds::add_edges() {
     const EdgeReset& reset = plan.reset_of(plan.edges[e]);
     std::vector<int> groups;
     for (const int node : plan.edges[e].relations) groups.push_back(group_of.at(node));
-    of_edges_.push_back(
-        {.monitor =
-             ZenoMonitor(reset.zeno_tolerance.value_or(options_->zeno_tolerance), options_->rtol),
-         .leaf = plan.edges[e].leaf,
-         .source = journal_->source_of(Cause::edge, static_cast<int>(e)),
-         .on_zeno = reset.on_zeno,
-         .groups = std::move(groups),
-         .of_plan = parts_.whole(plan.leaf(plan.edges[e].leaf))});
+    of_edges_.push_back({.monitor = new_monitor(reset.zeno_tolerance),
+                         .leaf = plan.edges[e].leaf,
+                         .source = journal_->source_of(Cause::edge, static_cast<int>(e)),
+                         .on_zeno = reset.on_zeno,
+                         .groups = std::move(groups),
+                         .of_plan = parts_.whole(plan.leaf(plan.edges[e].leaf))});
   }
 }
 

@@ -40,6 +40,7 @@ class Leaf : public saltus::LeafSystem {
   using LeafSystem::declare_output_port;
   using LeafSystem::declare_periodic_update;
   using LeafSystem::declare_relation;
+  using LeafSystem::declare_shared_outside;
   using LeafSystem::declare_sparse_jacobian;
   using LeafSystem::declare_time_event;
   using LeafSystem::declare_zero_crossing;

@@ -16,6 +16,8 @@ TEST_CASE("the own rate of a value is that of the fastest thing it reads", "[rat
   CHECK(own_rate(Reads::mode, false, false, true) == Rate::held);
   CHECK(own_rate(Reads::schedule, false, false, false) == Rate::held);
   CHECK(own_rate(Reads::schedule | Reads::continuous_state, true, false, false) == Rate::held);
+  CHECK(own_rate(Reads::outside, false, false, false) == Rate::held);
+  CHECK(own_rate(Reads::outside | Reads::continuous_state, true, false, false) == Rate::continuous);
   CHECK(own_rate(Reads::schedule | Reads::time, false, false, false) == Rate::continuous);
   CHECK(own_rate(Reads::discrete_state | Reads::time, false, true, false) == Rate::continuous);
   CHECK(faster(Rate::held, Rate::constant) == Rate::held);

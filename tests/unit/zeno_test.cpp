@@ -19,6 +19,26 @@ ZenoMonitor seen(double tolerance, double start, const std::vector<double>& gaps
 
 }  // namespace
 
+TEST_CASE("a gap has to be short beside the longest one, if a share of it is given",
+          "[unit][zeno]") {
+  ZenoMonitor monitor(1e-6, 0.0, 1e-3);
+  double t = 0.0;
+  monitor.fired(t);
+  for (double gap = 8e-7; gap > 8.1e-10; gap *= 0.5) {
+    monitor.fired(t += gap);
+    CHECK(!monitor.accumulates());
+  }
+  monitor.fired(t += 7.8e-10);
+  CHECK(monitor.accumulates());
+
+  ZenoMonitor resumed(1e-6, 0.0, 1e-3);
+  resumed.load(monitor.save(), 0);
+  CHECK(resumed.accumulates());
+  monitor.forget();
+  for (const double gap : {4e-8, 2e-8, 1e-8, 5e-9}) monitor.fired(t += gap);
+  CHECK(!monitor.accumulates());  // a new series with a longest gap of its own
+}
+
 TEST_CASE("gaps that shrink geometrically below the tolerance accumulate", "[zeno]") {
   const double start = GENERATE(0.0, -3.0, 100.0);
   CHECK(seen(1e-6, start, {8e-7, 4e-7, 2e-7}).accumulates());

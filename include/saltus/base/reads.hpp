@@ -16,6 +16,10 @@ enum class Reads : unsigned {
   /// inputs or a continuous state too, it samples them at those events, and is held in between.
   schedule = 64,
   everything = 63,
+  /// Values outside of the system that reset maps and updates write, such as a variable that several
+  /// functions share. They change at instants only, and the writer says so: see
+  /// Next::note_write_outside.
+  outside = 128,
 };
 constexpr Reads operator|(Reads a, Reads b) {
   return static_cast<Reads>(static_cast<unsigned>(a) | static_cast<unsigned>(b));

@@ -128,6 +128,10 @@ class Next {
     *mode_ = mode;
     wrote_mode_ = true;
   }
+  /// Notes that the function has written a value outside of the system, which other functions read.
+  /// It counts as a write of the continuous state, with the same values: the signals are computed
+  /// again, and the solver begins anew.
+  void note_write_outside() noexcept { wrote_x_ = true; }
 
   bool wrote_continuous_state() const noexcept { return wrote_x_; }
   bool wrote_discrete_state() const noexcept { return wrote_z_; }

@@ -34,6 +34,7 @@ struct Continuation {
     std::vector<double> times = {};  ///< [s] of the last firings, latest first; at most four
     std::vector<double> after = {};  ///< the values of `states` after the latest
     std::vector<Index> states = {};  ///< the entries of x that rest, or would rest
+    double longest = 0.0;            ///< [s] gap since the last release
     bool holding = false;
     bool operator==(const Firings&) const = default;
   };

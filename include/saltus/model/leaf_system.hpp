@@ -62,6 +62,9 @@ struct Declarations {
   List<TimeEvent> time_events;
   List<EventInputDeclaration> event_inputs;
   List<History> histories;
+  /// Some function reads or writes values outside of the system that functions of other blocks write
+  /// or read. All such blocks belong to one island.
+  bool shares_outside = false;
   /// In a plan: the inputs that are control signals. While one of them is false, the leaf is not
   /// executed: see DiagramBuilder::execute.
   std::vector<int> controls;
@@ -132,6 +135,11 @@ class LeafSystem : public System {
   /// Which parameter is the seed of the block's random numbers: Plan::describe() names the blocks that
   /// have the same one.
   void declare_seed(ParameterIndex seed);
+  /// Some function of the block reads or writes values outside of the system, such as a variable that
+  /// functions of several blocks refer to. All blocks that say so belong to one island. A reset map or an
+  /// update that writes such a value calls Next::note_write_outside, and an output that reads one has
+  /// Reads::outside among its `reads`.
+  void declare_shared_outside();
 
   int declare_input_port(InputDeclaration input = {});
   int declare_output_port(OutputDeclaration output);

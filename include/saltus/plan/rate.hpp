@@ -22,8 +22,9 @@ constexpr Rate own_rate(Reads reads, bool has_x, bool has_z, bool has_modes) {
   if (has(reads, Reads::time)) return Rate::continuous;
   if (samples(reads)) return Rate::held;
   if (has_x && has(reads, Reads::continuous_state)) return Rate::continuous;
-  const bool stepwise =
-      (has_z && has(reads, Reads::discrete_state)) || (has_modes && has(reads, Reads::mode));
+  const bool stepwise = has(reads, Reads::outside) ||
+                        (has_z && has(reads, Reads::discrete_state)) ||
+                        (has_modes && has(reads, Reads::mode));
   return stepwise ? Rate::held : Rate::constant;
 }
 

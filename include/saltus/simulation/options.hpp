@@ -16,6 +16,8 @@
 
 namespace saltus {
 
+inline constexpr double default_zeno_tolerance = 1e-6;  ///< [s]
+
 struct SimulatorOptions {
   /// Relative and absolute tolerance of a minor step: the root mean square over the states of
   /// error / (atol + rtol |x|) stays below 1. Each is one number for all states, or one for each
@@ -49,9 +51,10 @@ struct SimulatorOptions {
   std::optional<double> first_step = {};
 
   /// [s] If the firings of a guard follow each other within this time, with shrinking gaps, the
-  /// guard comes to rest in a Zeno hold. 0 switches the monitor off. Flights lower than atol cannot
-  /// be resolved, whatever this value is.
-  double zeno_tolerance = 1e-6;
+  /// guard comes to rest in a Zeno hold. With the default, the last gap is also at most a thousandth
+  /// of the longest one, because a scene may have shorter times than a microsecond. 0 switches the
+  /// monitor off. Flights lower than atol cannot be resolved, whatever this value is.
+  double zeno_tolerance = default_zeno_tolerance;
   /// The number of interior points of a step at which guards are evaluated, to find two crossings
   /// in one step; 0 switches this off. Empty: the degree of the method's dense output, that is 4
   /// for dopri5, 7 for dop853, and for adams and bdf the present order, at least 3.

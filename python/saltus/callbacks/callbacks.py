@@ -36,6 +36,7 @@ class Callbacks:
         self.outcomes: dict[int, list[Any]] = {}  # the functions of each block, by its number
         self._runs: dict[int, list[_core.Trace | None]] = {}  # the traces that the engine runs
         self._called: dict[Place, Any] = {}  # readers of written values, which are called
+        self._sharing: Any = {}  # the called functions that share values outside of the system
         self._siblings: Any = None  # while functions are traced
         self._glance: Callable[[], bool] | None = None  # whether anything may have changed
         self._values: Callable[[], bool] | None = None  # whether a value that was read has changed
@@ -93,7 +94,27 @@ class Callbacks:
         self._called, self._looks = found, looks
         if changed:
             self._run_anew(self.traces.blocks(), changed)
-        return bool(changed)
+        return self._share(looks) or bool(changed)
+
+    def _share(self, looks: list[Any]) -> bool:
+        """Names to the engine the called functions that share values outside of the system. Returns
+        whether they are others than before.
+        """
+        sharing = self._found_sharing(looks)
+        if sharing == self._sharing:
+            return False
+        for number in {*sharing, *self._sharing}:
+            self.traces.share(number, *sharing.get(number, ([], [])))
+        self._sharing = sharing
+        self.version += 1
+        return True
+
+    def _found_sharing(self, looks: list[Any]) -> Any:
+        if not self._calls:
+            return {}
+        from saltus import tracing
+
+        return tracing.sharing_of(self.traces.blocks(), self.outcomes, self._called, looks)
 
     @property
     def all_traced(self) -> bool:
@@ -126,7 +147,7 @@ class Callbacks:
         if not self.outcomes:
             return _nothing_changes
         compiled = any(o is None for of_block in self.outcomes.values() for o in of_block)
-        searched = self._calls and self._traces
+        searched = self._calls and bool(self._traces or self._sharing)
         if others or (searched and compiled):
             return None
         from saltus import tracing
@@ -137,7 +158,7 @@ class Callbacks:
             self._looks,
         )
         self._values = values
-        if not searched:
+        if not looks:
             return values
         return lambda: values() or any(each.changed() for each in looks)
 

@@ -83,10 +83,11 @@ def core_trace(block: Block, function: Block, outcome: Any) -> _core.Trace | Non
     """The trace that the engine runs; None for a function that is called."""
     if not hasattr(outcome, "tape"):
         return None
+    truths = outcome.boolean or function["role"] in GUARDS
     return _core.Trace(
         function["number"],
         outcome.tape,
-        outcome.relations,
+        outcome.relations if truths else None,
         outcome.wrote_x,
         outcome.wrote_z,
         outcome.wrote_mode,

@@ -6,11 +6,12 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from saltus import _core
+from saltus.callbacks.called import Called
 from saltus.callbacks.callbacks import Callbacks, Others
 from saltus.callbacks.explanation import Explanation
 from saltus.errors import ModelError
 
-__all__ = ["explain", "planned", "traced_callbacks"]
+__all__ = ["called_callbacks", "explain", "planned", "traced_callbacks"]
 
 Made = TypeVar("Made")
 
@@ -32,7 +33,8 @@ def planned(
 ) -> tuple[Made, Callbacks]:
     """The result of `plan` for a system with its callbacks, which are traced by then.
 
-    `plan` is called again if a function, traced for the first plan, has to be called.
+    `plan` is called again if a function, traced for the first plan, has to be called, or if called
+    functions share values outside of the system.
     """
     callbacks = callbacks_of(system)
     made = plan(callbacks)
@@ -40,6 +42,14 @@ def planned(
         made = plan(callbacks)
     system._callbacks = callbacks
     return made, callbacks
+
+
+def called_callbacks(system: Any) -> Callbacks | None:
+    """The callbacks of a system of which none is traced, for the option `python="called"`. None if no
+    functions share values outside of the system: then a plan needs nothing of them.
+    """
+    callbacks = Called(system)
+    return callbacks if callbacks.settle() else None
 
 
 def traced_callbacks(system: Any) -> Callbacks:

@@ -14,7 +14,7 @@ from saltus._engine import core_context, core_options, needs_interpreter
 from saltus._quantities import Quantity
 from saltus._signals import port_of, quantities_of
 from saltus._status import WELL
-from saltus.callbacks import Callbacks, planned
+from saltus.callbacks import Callbacks, called_callbacks, planned
 from saltus.ensemble.columns import Columns, failed
 from saltus.ensemble.runs import NoSystem, Outcome, Watch, each, said
 from saltus.ensemble.table import Column, Table, entry
@@ -87,7 +87,8 @@ class Job:
             when = self.options.machine_code
             return _core.Ensemble(system, begin, self.span, options, callbacks, when)
 
-        ensemble = planned(system, plan)[0] if self.options.python == "traced" else plan(None)
+        traced = self.options.python == "traced"
+        ensemble = planned(system, plan)[0] if traced else plan(called_callbacks(system))
         values = values if self.follow is None else self.follow(values)
         for name, column in values.items():
             ensemble.vary(name, _numbers(name, column))

@@ -12,7 +12,7 @@ from saltus import _core
 from saltus._engine import core_context, core_options
 from saltus._signals import signals_in
 from saltus._span import span_of
-from saltus.callbacks import traced_callbacks
+from saltus.callbacks import called_callbacks, traced_callbacks
 from saltus.errors import ModelError
 from saltus.options import SimulatorOptions
 from saltus.report.table import WorkPrecision
@@ -163,9 +163,9 @@ def _scene(
     else:
         signals = {system.output_names[0]: system.output(0)} if system.output_names else {}
     chosen = SimulatorOptions(recorded_signals=signals, **options)
-    callbacks = traced_callbacks(system) if chosen.python == "traced" else None
+    of = traced_callbacks if chosen.python == "traced" else called_callbacks
     return _core.user_scene(
-        system, core_context(context), span, core_options(chosen, system), callbacks
+        system, core_context(context), span, core_options(chosen, system), of(system)
     )
 
 

@@ -11,7 +11,7 @@ from saltus._engine import core_context, core_options
 from saltus._porting import missing
 from saltus._signals import quantities_of
 from saltus._status import WELL
-from saltus.callbacks import Callbacks, planned
+from saltus.callbacks import Callbacks, called_callbacks, planned
 from saltus.errors import ModelError
 from saltus.options import SimulatorOptions
 from saltus.progress import reporter_of
@@ -107,7 +107,7 @@ class Simulator:
         if self.options.python == "traced":
             plan, self._callbacks = planned(self.system, self._plan, self._others)
         else:
-            plan = self._plan(None)
+            plan = self._plan(called_callbacks(self.system))
         self._core = _core.Simulator(plan, self._reporter)
         self._version = self._callbacks.version if self._callbacks else 0
         self._fixes = _core.fixes()

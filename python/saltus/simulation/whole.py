@@ -11,7 +11,7 @@ from saltus._engine import core_options
 from saltus._porting import OPTIONS, refuse
 from saltus._signals import signals_of
 from saltus._status import WELL
-from saltus.callbacks import Callbacks, planned
+from saltus.callbacks import Callbacks, called_callbacks, planned
 from saltus.callbacks.plans import Key
 from saltus.errors import ModelError, SimulationError
 from saltus.options import SimulatorOptions
@@ -73,9 +73,8 @@ def _kept(system: System, key: Key) -> tuple[_core.Plan, Callbacks] | None:
 def _made(system: System, options: SimulatorOptions, key: Key | None) -> Prepared:
     reporter, core = reporter_of(options.progress), core_options(options, system)
     if options.python != "traced":
-        return Prepared(
-            _core.Plan(system, core, None, options.machine_code), None, reporter, options.throw
-        )
+        plan = _core.Plan(system, core, called_callbacks(system), options.machine_code)
+        return Prepared(plan, None, reporter, options.throw)
     versions = (0, 0)
 
     def make(callbacks: Callbacks) -> _core.Plan:

@@ -8,6 +8,7 @@ from saltus.tracing.known import Known
 from saltus.tracing.readers import readers_of_writes
 from saltus.tracing.residuals import as_guard
 from saltus.tracing.sandbox import Dependencies, Glance
+from saltus.tracing.sharing import Sharing, sharing_of
 from saltus.tracing.siblings import Siblings
 from saltus.tracing.signature import Refused, Relations, Signature, Traced
 from saltus.tracing.tracing import trace
@@ -18,10 +19,12 @@ __all__ = [
     "Known",
     "Refused",
     "Relations",
+    "Sharing",
     "Siblings",
     "Signature",
     "Traced",
     "as_guard",
     "readers_of_writes",
+    "sharing_of",
     "trace",
 ]

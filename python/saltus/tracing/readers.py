@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import gc
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from saltus.tracing.effects import Change, Changes, Looks, writes_of
 from saltus.tracing.known import Known
+from saltus.tracing.roots import roots_of
 from saltus.tracing.signature import Refused, Traced
 
 __all__ = ["readers_of_writes"]
@@ -80,8 +80,5 @@ def _reason(change: Change) -> str:
 
 
 def _callback(block: Mapping[str, Any], i: int) -> _Callback:
-    function = block["functions"][i]
-    owner = [block["leaf"]] if function["method"] else []
-    if function["compiled"]:  # perhaps a function of Python that ctypes calls
-        owner = gc.get_referents(function["function"])
-    return _Callback(f"the {function['what']} of '{block['path']}'", [function["function"], *owner])
+    words = f"the {block['functions'][i]['what']} of '{block['path']}'"
+    return _Callback(words, roots_of(block, i))

@@ -8,7 +8,7 @@ from typing import Any
 from saltus.tracing.relations import LOGIC, SIDES
 from saltus.tracing.signature import Refused, Traced
 
-__all__ = ["as_guard", "jump", "residual"]
+__all__ = ["as_guard", "jump", "residual", "stand_for_truths"]
 
 HELD = {"constant", "discrete_state", "mode", "parameter", "entry"}
 """values that change at instants only"""
@@ -136,6 +136,10 @@ class _Residuals:
         differ = self._apply("maximum", only_first, only_second)
         return differ if name == "ne" else self._apply("neg", differ)
 
+    def stands_for_truth(self, node: int) -> bool:
+        """Whether a number is 1 where a truth over the states is true, and 0 elsewhere."""
+        return self.graph.value(node) is None and self._is_truth(node)
+
     def _is_truth(self, node: int) -> bool:
         number = self.graph.value(node)
         if number is not None:
@@ -176,6 +180,12 @@ def residual(graph: Any, outputs: list[int]) -> Any | None:
     return None if not nodes or None in nodes else graph.tape(nodes)
 
 
+def stand_for_truths(graph: Any, outputs: list[int]) -> bool:
+    """Whether all numbers are truths written as 0 and 1, such as np.where(x > 0.3, 1, 0)."""
+    residuals = _Residuals(graph)
+    return bool(outputs) and all(map(residuals.stands_for_truth, outputs))
+
+
 def jump(graph: Any, outputs: list[int]) -> Any:
     """The tape of numbers that jump over zero where truths change, and vary as their residuals.
 
@@ -187,11 +197,13 @@ def jump(graph: Any, outputs: list[int]) -> Any:
 
 
 def as_guard(outcome: Traced | Refused) -> Traced | Refused:
-    """The function as a guard: a truth becomes its residual.
+    """The function as a guard: a truth becomes its residual, also where 0 and 1 stand for it.
 
     A truth that has no residual jumps: its function is called, and its value is 1 or -1.
     """
-    if isinstance(outcome, Refused) or not outcome.boolean:
+    if isinstance(outcome, Refused) or not (outcome.boolean or outcome.numbers_are_truths):
+        return outcome
+    if outcome.residual is None and not outcome.boolean:
         return outcome
     if outcome.residual is None:
         return Refused(

@@ -120,6 +120,8 @@ class Traced:
     """`dependencies.changed()` names a source of the tape that has changed"""
     compared: int = 0
     """the number of points at which tape and function were compared"""
+    numbers_are_truths: bool = False
+    """whether the numbers 0 and 1 of the result stand for truths"""
 
 
 @dataclass(frozen=True)

@@ -145,11 +145,17 @@ def _outcome(
     compared: int,
     guard: Callable[[Any, list[int]], Any],
 ) -> Traced:
-    truths = result.boolean and not result.written
+    numbers_are_truths = (
+        not result.boolean
+        and not result.written
+        and residuals.stand_for_truths(graph, result.numbers)
+    )
+    truths = (result.boolean and not result.written) or numbers_are_truths
     return Traced(
         tape=tape,
         shape=result.shape,
         boolean=result.boolean,
+        numbers_are_truths=numbers_are_truths,
         residual=guard(graph, result.numbers) if truths else None,
         relations=relations.find(_core.Graph, graph, result.numbers) if truths else None,
         wrote_x="x" in result.written,

@@ -113,6 +113,7 @@ void fields_of(Archive& archive, Continuation& c) {
     one.field("times", firings.times);
     one.field("after", firings.after);
     one.optional("states", firings.states);
+    one.optional("longest", firings.longest);
     one.field("holding", firings.holding);
   });
   archive.field("edges", c.edges);

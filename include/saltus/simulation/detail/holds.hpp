@@ -1,6 +1,7 @@
 // Holds: when the firings of a guard accumulate, and which states rest then.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -66,6 +67,7 @@ class Holds {
   void load(const Continuation& from);
 
  private:
+  ZenoMonitor new_monitor(std::optional<double> own) const;
   void add_guards(const GuardSet& guards);
   void add_edges();
   bool steers(const ZeroCrossing& crossing, int leaf) const;

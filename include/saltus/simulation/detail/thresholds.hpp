@@ -148,6 +148,10 @@ inline constexpr double wavered = 2.0;
 /// [eps |t|] A gap that shrinks by less may shrink by the rounding of the event times only.
 /// tests/unit/zeno_test.cpp
 inline constexpr double gap_roundings = 8.0;
+/// [1] With the default Zeno tolerance, the last gap of a series is at most this share of the longest
+/// one. A ball has lost a millionth of its first height then, in whatever unit of time.
+/// tests/unit/zeno_test.cpp
+inline constexpr double short_gap = 1e-3;
 /// [1] Above this ratio of gaps, the ratio is computed over two gaps: a slow series amplifies the
 /// rounding of event times by 1 / (1 - q)^2. tests/unit/zeno_test.cpp
 inline constexpr double slow_series = 0.9;

@@ -18,9 +18,10 @@ namespace saltus {
 /// the last gaps; the states after the resets accumulate likewise.
 class ZenoMonitor {
  public:
-  /// `rtol` is the relative tolerance of the method, which bounds the error of a gap.
-  explicit ZenoMonitor(double tolerance = 0.0, double rtol = 0.0)
-      : tolerance_(tolerance), rtol_(rtol) {}
+  /// `rtol` is the relative tolerance of the method, which bounds the error of a gap; `share` is the
+  /// share of the longest gap that the last one may have at most.
+  explicit ZenoMonitor(double tolerance = 0.0, double rtol = 0.0, double share = 1.0)
+      : tolerance_(tolerance), rtol_(rtol), share_(share) {}
 
   bool on() const noexcept { return tolerance_ > 0.0; }
   double tolerance() const noexcept { return tolerance_; }
@@ -31,6 +32,7 @@ class ZenoMonitor {
   /// Forgets all firings. After a release, a gap to an earlier firing has no meaning.
   void forget() {
     times_.fill(nan);
+    longest_ = 0.0;
     holding = false;
   }
 
@@ -38,16 +40,17 @@ class ZenoMonitor {
   void fired(double t) {
     std::copy_backward(times_.begin(), times_.end() - 1, times_.end());
     times_[0] = t;
+    if (std::isfinite(gap(0))) longest_ = std::max(longest_, gap(0));
   }
 
-  /// Whether the firings accumulate: the last gap is within the tolerance, and three gaps in a row
+  /// Whether the firings accumulate: the last gap is short, and three gaps in a row
   /// shrink by more than the rounding of the event times and the tolerance of the method. A steady
   /// fast rhythm does not accumulate: a multistep method loses a part of its speed at each impact,
   /// and its gaps shrink by a part of the tolerance. Nor do some short gaps after a long one: the
   /// ratio of the gaps is that of a series. Nor do gaps that approach a length above zero: their ratio
   /// approaches 1, and the sum that it predicts grows faster than the firings come.
   bool accumulates() const {
-    if (!(gap(0) <= tolerance_) || !std::isfinite(gap(2))) return false;
+    if (!is_short() || !std::isfinite(gap(2))) return false;
     const double error =
         thresholds::gap_roundings * thresholds::eps * std::abs(times_[0]) + rtol_ * gap(0);
     if (!(gap(1) - gap(0) > error && gap(2) - gap(1) > error)) return false;
@@ -55,6 +58,9 @@ class ZenoMonitor {
     return last <= thresholds::same_ratio * before && before <= thresholds::same_ratio * last &&
            is_supported(last, before, error);
   }
+
+  /// Whether the last gap is within the tolerance, and within its share of the longest one.
+  bool is_short() const { return gap(0) <= tolerance_ && gap(0) <= share_ * longest_; }
 
   /// Whether the ratio of the gaps changes so slowly that it says something of all gaps that are left.
   /// The error of the gaps does not count as a change.
@@ -80,7 +86,7 @@ class ZenoMonitor {
   void remember(const Eigen::Ref<const Eigen::VectorXd>& after) { after_ = after; }
 
   Continuation::Firings save() const {
-    Continuation::Firings saved{.holding = holding};
+    Continuation::Firings saved{.longest = longest_, .holding = holding};
     for (const double t : times_) {
       if (!std::isnan(t)) saved.times.push_back(t);
     }
@@ -93,6 +99,10 @@ class ZenoMonitor {
     holding = saved.holding;
     if (saved.after.size() != states) return;
     std::copy_n(saved.times.begin(), std::min(saved.times.size(), times_.size()), times_.begin());
+    longest_ = saved.longest;
+    for (std::size_t i = 0; i + 1 < times_.size();
+         ++i)  // data of earlier versions have no longest gap
+      if (std::isfinite(gap(i))) longest_ = std::max(longest_, gap(i));
     after_ = Eigen::Map<const Eigen::VectorXd>(saved.after.data(),
                                                static_cast<Eigen::Index>(saved.after.size()));
   }
@@ -105,7 +115,8 @@ class ZenoMonitor {
     return std::isnan(gap) ? std::numeric_limits<double>::infinity() : gap;
   }
 
-  double tolerance_, rtol_;
+  double tolerance_, rtol_, share_;
+  double longest_ = 0.0;                             // [s] gap since the last release
   std::array<double, 4> times_{nan, nan, nan, nan};  // [s] of the last firings, latest first
   Eigen::VectorXd after_;
 };

@@ -49,8 +49,14 @@ def _root(value: Any) -> str:
 
 def of_library(value: Any) -> bool:
     """Whether the code of a function, class or module is that of a library."""
-    wraps = str(getattr(value, "__module__", "")).startswith("saltus.solving")
-    return _root(value) in LIBRARIES and not wraps and not _nameless(value)
+    return _root(value) in LIBRARIES and not _wraps(value) and not _nameless(value)
+
+
+def _wraps(value: Any) -> bool:
+    """Code of this package that may call a function of the user, such as that of a SourceBlock."""
+    solving = str(getattr(value, "__module__", "")).startswith("saltus.solving")
+    inner = isinstance(value, FunctionType) and bool(value.__closure__)
+    return solving or (inner and _root(value) == "saltus")
 
 
 def _nameless(value: Any) -> bool:

@@ -79,6 +79,8 @@ class Reach:
         self.names: set[str] = set()
         self.binds: set[str] = set()
         self.cells: dict[int, CellType] = {}
+        self.variables: set[int] = set()
+        """identities of all variables of functions around those found, bound or read"""
         self.touched: dict[int, Any] = {}
         self.mutates = False
         self.unknown = ""
@@ -141,6 +143,7 @@ class Reach:
         for name, cell in cells:
             if name in names:
                 self.cells[id(cell)] = cell
+            self.variables.add(id(cell))
             self._visit_all(_content(cell))
         self._visit_all(function.__defaults__ or ())
         self._visit_all((function.__kwdefaults__ or {}).values())
