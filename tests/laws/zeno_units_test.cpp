@@ -9,7 +9,7 @@ using Catch::Matchers::WithinAbs;
 
 namespace zeno_units_test {
 
-constexpr double e = 0.8, atol = 1e-8;
+constexpr double e = 0.8, small = 1e-8;
 
 /// A ball whose first fall, from the height 1, takes `fall` seconds: g = 2 / fall^2.
 Leaf ball(double fall) {
@@ -46,7 +46,7 @@ TEST_CASE("4.2 a ball in any unit of time flies as long as in seconds", "[laws]"
   const Leaf leaf = ball(fall);
   const auto run = [&](double falls) {
     return simulate(leaf, leaf.create_context(), {0.0, falls * fall},
-                    {.atol = atol, .ode_solver_method = method});
+                    {.atol = small, .ode_solver_method = method});
   };
   // Some ten flights, each with an error of the tolerance 1e-6; flights are parabolas, which each
   // method follows to the rounding.
@@ -60,8 +60,8 @@ TEST_CASE("4.2 a ball in any unit of time flies as long as in seconds", "[laws]"
     if (results.events[i].kind != EventKind::zeno_enter) continue;
     // 1 + 2 (e + e^2 + ...) falls, to the tolerance of the flights. The last gap is less than a
     // thousandth of the first one, 1.6, and the flights that are left take e / (1 - e) = 4 of it. Slow
-    // balls rest where a velocity is below atol: a gap is 2 atol / g = atol fall^2 then.
-    const double slow = 4.0 * atol * fall * fall, error = 1e-6 * 9.0 * fall + slow;
+    // balls rest where a velocity is below atol = small: a gap is 2 atol / g = atol fall^2 then.
+    const double slow = 4.0 * small * fall * fall, error = 1e-6 * 9.0 * fall + slow;
     CHECK_THAT(results.events[i].predicted, WithinAbs(9.0 * fall, error));
     CHECK(results.events[i].time > (9.0 - 4.0 * 1.6e-3) * fall - error);
   }
