@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from saltus import _core
 from saltus.callbacks.explanation import Explanation, explained
 from saltus.callbacks.function import Block, core_trace, outcome_of
 from saltus.callbacks.plans import Plans
+from saltus.callbacks.search import Found, Others, Place, search
 
 __all__ = ["Callbacks", "Others"]
-
-Place = tuple[int, int]  # the numbers of a block and of a function of it
-Others = Sequence[tuple[str, Any]]  # functions that are no callbacks of a block, with words
 
 
 def _nothing_changes() -> bool:
@@ -35,12 +33,10 @@ class Callbacks:
         self.plans = Plans()
         self.outcomes: dict[int, list[Any]] = {}  # the functions of each block, by its number
         self._runs: dict[int, list[_core.Trace | None]] = {}  # the traces that the engine runs
-        self._called: dict[Place, Any] = {}  # readers of written values, which are called
-        self._sharing: Any = {}  # the called functions that share values outside of the system
+        self._found = Found()  # what the last search for writers found
         self._siblings: Any = None  # while functions are traced
         self._glance: Callable[[], bool] | None = None  # whether anything may have changed
         self._values: Callable[[], bool] | None = None  # whether a value that was read has changed
-        self._looks: list[Any] = []  # what the last search for writers looked at
         self._traces = self._calls = False  # whether a function is traced, and whether one is not
 
     def trace_block(self, number: int, block: Block) -> list[_core.Trace]:
@@ -50,7 +46,7 @@ class Callbacks:
         outcomes = [outcome_of(block, function, trace) for function in functions]
         known = number in self.outcomes
         self.outcomes[number] = outcomes
-        self._called = {}
+        self._found = Found({}, self._found.sharing)
         self._glance = self._values = None
         if known:
             self._note_ways()
@@ -88,33 +84,23 @@ class Callbacks:
         The writes of a run are known only when all functions are traced or refused.
         """
         self._siblings = self._glance = self._values = None
-        looks: list[Any] = []
-        found = self._readers_of_writes(others, looks)
-        changed = found.keys() ^ self._called.keys()
-        self._called, self._looks = found, looks
+        before, found = self._found, Found()
+        if self._calls or others:
+            found = search(self.traces.blocks(), self.outcomes, others, self._traces)
+        self._found = found
+        changed = found.called.keys() ^ before.called.keys()
         if changed:
             self._run_anew(self.traces.blocks(), changed)
-        return self._share(looks) or bool(changed)
+        shared = found.sharing != before.sharing
+        if shared:
+            self._share({*found.sharing, *before.sharing})
+        return shared or bool(changed)
 
-    def _share(self, looks: list[Any]) -> bool:
-        """Names to the engine the called functions that share values outside of the system. Returns
-        whether they are others than before.
-        """
-        sharing = self._found_sharing(looks)
-        if sharing == self._sharing:
-            return False
-        for number in {*sharing, *self._sharing}:
-            self.traces.share(number, *sharing.get(number, ([], [])))
-        self._sharing = sharing
+    def _share(self, blocks: Iterable[int]) -> None:
+        """Names to the engine the functions of some blocks that share values outside of the system."""
+        for number in blocks:
+            self.traces.share(number, *self._found.sharing.get(number, ([], [])))
         self.version += 1
-        return True
-
-    def _found_sharing(self, looks: list[Any]) -> Any:
-        if not self._calls:
-            return {}
-        from saltus import tracing
-
-        return tracing.sharing_of(self.traces.blocks(), self.outcomes, self._called, looks)
 
     @property
     def all_traced(self) -> bool:
@@ -147,27 +133,18 @@ class Callbacks:
         if not self.outcomes:
             return _nothing_changes
         compiled = any(o is None for of_block in self.outcomes.values() for o in of_block)
-        searched = self._calls and bool(self._traces or self._sharing)
+        searched = self._calls and bool(self._traces or self._found.sharing)
         if others or (searched and compiled):
             return None
         from saltus import tracing
 
         outcomes = (o for of_block in self.outcomes.values() for o in of_block if o is not None)
-        values, looks = (
-            tracing.Glance(outcome.dependencies for outcome in outcomes).changed,
-            self._looks,
-        )
+        values = tracing.Glance(outcome.dependencies for outcome in outcomes).changed
+        looks = self._found.looks
         self._values = values
         if not looks:
             return values
         return lambda: values() or any(each.changed() for each in looks)
-
-    def _readers_of_writes(self, others: Others, looks: list[Any]) -> dict[Place, Any]:
-        if not self._traces or not (self._calls or others):
-            return {}
-        from saltus import tracing
-
-        return tracing.readers_of_writes(self.traces.blocks(), self.outcomes, others, looks)
 
     def _watched(self) -> list[Place]:
         """The functions whose outcome remains right while the values that they read do not
@@ -177,7 +154,7 @@ class Callbacks:
             (b, i)
             for b, outcomes in self.outcomes.items()
             for i, outcome in enumerate(outcomes)
-            if outcome is not None and (b, i) not in self._called
+            if outcome is not None and (b, i) not in self._found.called
         ]
 
     def _changed(self) -> list[Place]:
@@ -194,7 +171,7 @@ class Callbacks:
 
     def _outcome(self, b: int, i: int) -> Any:
         """How a function runs: by its own outcome, or as a call although it could be traced."""
-        return self._called.get((b, i), self.outcomes[b][i])
+        return self._found.called.get((b, i), self.outcomes[b][i])
 
     def explain(self, note: str = "") -> Explanation:
         """How each callback runs."""
