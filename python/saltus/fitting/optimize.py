@@ -114,7 +114,8 @@ class Optimizer:
             jacobian = problem.jacobian(back(w))
             if not (jacobian.T @ problem.residuals(back(w))).any():
                 raise _Flat(w.copy())
-            return jacobian * scale
+            scaled: np.ndarray = jacobian * scale
+            return scaled
 
         call = functools.partial(
             self.least_squares,
