@@ -115,7 +115,7 @@ class SimulatorOptions:
     """
     recorded_signals: Mapping[str, OutputPort | str] | Sequence[str] | None = None
     """the outputs to record: a dict of names with ports or paths such as "car.engine.out", or a
-    list of paths. None: the outputs that a diagram exports, in a sweep nothing; {}: nothing
+    list of paths. None: the outputs of the system, in a sweep nothing; {}: nothing
     """
     sensitivity: Sequence[str] = ()
     """the parameters and start values to differentiate the run by, with the names of `sweep`:

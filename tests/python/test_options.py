@@ -202,7 +202,9 @@ def test_recorded_signals_in_the_options():
     ball = Ball()
     options = SimulatorOptions(recorded_signals={"s": ball.output()})
     assert set(saltus.simulate(ball, ball.create_context(), (0.0, 0.1), options).outputs) == {"s"}
-    assert not saltus.simulate(ball, ball.create_context(), (0.0, 0.1)).outputs
+    assert set(saltus.simulate(ball, (0.0, 0.1)).outputs) == {"state"}
+    none = SimulatorOptions(recorded_signals={})
+    assert not saltus.simulate(ball, (0.0, 0.1), options=none).outputs
 
 
 def test_recording_events_can_be_switched_off():
