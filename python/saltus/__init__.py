@@ -31,6 +31,8 @@ from saltus.system import InputPort, OutputPort, System
 
 if TYPE_CHECKING:
     from saltus import drawings as drawings
+    from saltus import sbml as sbml
+    from saltus import scene_files as scene_files
     from saltus.derivative_checks import WrongDerivative, check_derivatives
     from saltus.differentiable import RunValues
     from saltus.differentiable.jax_function import jax_function as jax_function
@@ -110,7 +112,9 @@ __all__ = [
     "periodic_orbit",
     "plot_sweep",
     "response",
+    "sbml",
     "scene",
+    "scene_files",
     "shelf",
     "simulate",
     "simulation",
@@ -136,6 +140,8 @@ _LATER = {
     **dict.fromkeys(("WorkPrecision", "work_precision"), "report"),
     "drawings": "drawings",
     "plot_sweep": "ensemble.heat_map",
+    "sbml": "sbml",
+    "scene_files": "scene_files",
     "sweep": "ensemble",
     "view": "viewing",
 }

@@ -22,10 +22,10 @@ __all__ = [
     "Quantity",
     "mode_names",
     "mode_of",
-    "named_states",
     "on_zeno_of",
     "quantity_of",
     "says",
+    "shown_twice",
     "units_of",
 ]
 
@@ -145,7 +145,7 @@ def _texts(what: str, key: str, values: Any, example: str) -> tuple[str, ...]:
     return tuple(values)
 
 
-def named_states(system: Any) -> tuple[int, ...]:
-    """The outputs of a block that show states by name."""
+def shown_twice(system: Any) -> tuple[int, ...]:
+    """The outputs of a block that show all states, where each state has an output of its own."""
     declared: Declared | None = getattr(system, "_declared_quantities", None)
-    return () if declared is None else declared.states
+    return declared.whole if declared is not None and declared.states else ()

@@ -7,7 +7,7 @@ from copy import copy
 from typing import Any
 
 from saltus import _core
-from saltus._quantities import Quantity, named_states, quantity_of, says
+from saltus._quantities import Quantity, quantity_of, says, shown_twice
 from saltus.errors import ModelError
 from saltus.ports import OutputPort
 from saltus.system import System
@@ -92,14 +92,13 @@ def signals_in(system: System, signals: Any) -> dict[str, OutputPort]:
 
 
 def signals_of(system: System, signals: Any) -> dict[str, OutputPort]:
-    """The signals of a run; by default the outputs that a diagram exports, or the states of a block
-    that have names.
+    """The signals of a run; by default the outputs of the system, but for one of all states where
+    each of these has a name.
     """
     if signals is not None:
         return signals_in(system, signals)
-    if is_diagram(system):
-        return {port.name: port for port in system.output_ports}
-    return {system.output_names[i]: OutputPort(system, i) for i in named_states(system)}
+    twice = shown_twice(system)
+    return {port.name: port for port in system.output_ports if port.index not in twice}
 
 
 def quantities_of(system: System, signals: Any) -> Callable[[], dict[str, Quantity]]:

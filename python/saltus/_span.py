@@ -43,6 +43,21 @@ def _shown(t_span: object) -> str:
     return repr(t_span)
 
 
+def _remedy(beyond: Sequence[float], span: tuple[float, float]) -> str:
+    """What to do about times that are not within the span."""
+    begin, end = span
+    before, after = min(beyond) < begin, max(beyond) > end
+    kept = (
+        f"{begin} <= t" if not after else f"t <= {end}" if not before else f"{begin} <= t <= {end}"
+    )
+    longer = ", or make the run longer" if after else ""
+    earlier = ", or begin earlier" if before and not after else ""
+    return (
+        f"leave them out, as a piece of a longer run does: save_at=[t for t in times if {kept}]"
+        f"{longer}{earlier}"
+    )
+
+
 def rows_within(where: str, save_at: Sequence[float], span: tuple[float, float]) -> Sequence[float]:
     """The times of rows of a run. A time may be beyond an end by rounding, as 19 * 0.1 is beyond 1.9;
     then that end is taken. ModelError for other times before the begin of the run, or after its end.
@@ -58,6 +73,6 @@ def rows_within(where: str, save_at: Sequence[float], span: tuple[float, float])
         more = f" and {len(beyond) - 4} more" if len(beyond) > 4 else ""
         raise ModelError(
             f"{where}: option save_at: expected times within the run, {begin} s to {end} s, "
-            f"found {shown}{more}; leave them out, or make the run longer"
+            f"found {shown}{more}; {_remedy(beyond, span)}"
         )
     return list(dict.fromkeys(float(min(max(time, begin), end)) for time in save_at))

@@ -43,6 +43,10 @@ def _refuse_unknown(cls: Any) -> Any:
 class SimulatorOptions:
     """How a run is done. `dataclasses.replace(options, rtol=1e-9)` makes a changed copy.
 
+    A minor step is one step of the solver. A major step is the stretch from one instant to the
+    next: an instant is the start, the end, a time event, or an event of a guard with an effect. A
+    major step has as many minor steps as the tolerances need.
+
     Every option can also be given to `simulate`, `Simulator` and `solve` by its name.
 
     Raises
@@ -81,13 +85,17 @@ class SimulatorOptions:
     outcome. With False such a block counts as full, or its places are unknown
     """
     max_major_steps: int | None = None
-    """instants a run may have; more end it with the status 'step_limit'"""
-    max_major_step_length: float | None = math.inf
-    """[s] longest time from one instant to the next"""
-    min_minor_step_size: float | None = 0.0
-    """[s] bounds of a solver step. They are rarely useful, because the tolerance chooses the step
+    """instants that a run may have, the start and the end among them, as `statistics.instants`
+    counts them; more end it with the status 'step_limit'. It bounds the events of a run, not the
+    minor steps
     """
+    max_major_step_length: float | None = math.inf
+    """[s] longest major step: an instant is added where the next one would be later"""
+    min_minor_step_size: float | None = 0.0
+    """[s] the shortest minor step; it is rarely useful, because the tolerance chooses the step"""
     max_minor_step_size: float | None = math.inf
+    """[s] the longest minor step; it is rarely useful either, because events are found in any step
+    """
     first_step: float | None = None
     """[s] the first solver step of the run that is tried; None: the tolerance chooses it"""
     zeno_tolerance: float = 1e-6
@@ -107,7 +115,7 @@ class SimulatorOptions:
     """
     recorded_signals: Mapping[str, OutputPort | str] | Sequence[str] | None = None
     """the outputs to record: a dict of names with ports or paths such as "car.engine.out", or a
-    list of paths. None: the outputs that a diagram exports, in a sweep nothing; {}: nothing
+    list of paths. None: the outputs of the system, in a sweep nothing; {}: nothing
     """
     sensitivity: Sequence[str] = ()
     """the parameters and start values to differentiate the run by, with the names of `sweep`:

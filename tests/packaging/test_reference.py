@@ -10,8 +10,8 @@ import saltus
 ROOT = Path(__file__).parents[2]
 PAGES = sorted((ROOT / "docs" / "api").glob("*.md"))
 SHOWN = [line for page in PAGES for line in re.findall(r"^::: (\S+)", page.read_text(), re.M)]
-WITHOUT = {"__version__", "library", "simulation"}
-"""a number, and two modules whose names are shown one by one"""
+WITHOUT = {"__version__", "library", "sbml", "scene_files", "simulation"}
+"""a number, and modules whose names are shown one by one"""
 
 
 def shown_names():

@@ -92,7 +92,7 @@ ANSWERS = {
     "an open input": (
         lambda: saltus.linearize(Gain(2.0, name="g")), "linearize(..., inputs={'in': 0.0})",
     ),
-    "no signal": (lambda: saltus.simulate(Plant(), (0, 1))["x"], "give the run recorded_signals"),
+    "no signal": (lambda: saltus.simulate(Plant(), (0, 1), recorded_signals=[])["x"], "give the run recorded_signals"),
 }  # fmt: skip
 
 

@@ -40,6 +40,8 @@ sys.stdout = sys.__stdout__
 }
 
 
+PACKAGES = ("drawings", "library", "sbml", "scene_files", "simulation")
+"""documented packages, which a script uses by their names after `import saltus`"""
 LOADED = "print(*{name.split('.')[0] for name in sys.modules})"
 
 
@@ -67,6 +69,12 @@ def test_the_machinery_for_pictures_and_the_command_line_waits_too():
     for module in ("saltus._picture", "saltus.cli", "saltus.report.chart", "subprocess", "saltus.viewing",
                    "saltus.drawings", "saltus.results.animation", "saltus.results.charts"):  # fmt: skip
         assert module not in loaded, module
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_a_documented_package_needs_no_import_of_its_own(package):
+    assert package in saltus.__all__
+    assert python(f"import saltus; print(saltus.{package}.__name__)").strip() == f"saltus.{package}"
 
 
 def test_import_reads_few_files():

@@ -178,3 +178,51 @@ def test_parameters_are_those_of_the_context():
 def test_refusals(make, message):
     with pytest.raises(saltus.ModelError, match=message):
         make()
+
+
+U = 3.0
+"""an input that is constant from the first tick on"""
+
+
+@pytest.mark.parametrize(
+    ("block", "first"),
+    [
+        (DelayN(0.5, 2, 7.0), [7.0, 7.0, U]),
+        (UnitDelay(0.5, 7.0), [7.0, U, U]),
+        (DerivativeDiscrete(0.5), [0.0, 0.0, 0.0]),
+        (DerivativeDiscrete(0.5, 2.0), [0.0, 0.0, 0.0]),
+        (EdgeDetection(0.5, "rising"), [1.0, 0.0, 0.0]),
+        (EdgeDetection(0.5, "rising", True), [0.0, 0.0, 0.0]),
+        (FilterDiscrete(0.5, [1.0, 10.0], 7.0), [U + 70.0, 11.0 * U, 11.0 * U]),
+        (IntegratorDiscrete(0.5, 7.0), [7.0, 7.0 + U / 2, 7.0 + U]),
+        (IntegratorDiscrete(0.5, 7.0, "backward"), [7.0, 7.0 + U / 2, 7.0 + U]),
+        (IntegratorDiscrete(0.5, 7.0, "trapezoidal"), [7.0, 7.0 + U / 2, 7.0 + U]),
+        (LTISystemDiscrete(0.5, 0.5, 1.0, 1.0, 0.0, 7.0), [7.0, 3.5 + U, 1.75 + 1.5 * U]),
+        (PIDDiscrete(0.5, 0.0, kd=1.0, n=2.0), [0.0, 0.0, 0.0]),
+        (PIDDiscrete(0.5, 0.0, ki=1.0, initial_state=7.0), [7.0, 7.0 + U / 2, 7.0 + U]),
+        (RateLimiter(0.5, 1.0, -1.0, 7.0), [U, U, U]),
+        (TransferFunctionDiscrete(0.5, [1.0], [1.0, -0.5]), [0.0, U, 1.5 * U]),
+    ],
+    ids=lambda case: type(case).__name__ if not isinstance(case, list) else "",
+)
+def test_the_first_ticks_are_those_of_the_equation(block, first):
+    """docs/blocks.md says what a block reads of ticks before the first."""
+    shown = saltus.response(block, U, t=[0.25, 0.75, 1.25])
+    np.testing.assert_allclose(shown, first, rtol=1e-15)
+
+
+def test_a_context_starts_the_derivative_of_a_pid_as_other_tools_do():
+    """d[0] = n u / (1 + n dt), and each tick divides it by 1 + n dt: f[-1] = 0."""
+    dt, n = 0.1, 3.0
+    builder = saltus.DiagramBuilder()
+    u, pid = builder.add(Constant(U), PIDDiscrete(dt, 0.0, kd=1.0, n=n, name="pid"))
+    builder.connect(u.output(), pid.input())
+    diagram = builder.build()
+    context = diagram.create_context()
+    state = [*context[pid].discrete_state[:-1], 1.0]
+    context = context.with_subcontext(pid, context[pid].with_discrete_state(state))
+    run = saltus.simulate(
+        diagram, context, (0.0, 0.35), recorded_signals={"y": pid.output()}, save_at=[0.05, 0.15, 0.25]
+    )  # fmt: skip
+    shown = [run["y"][run.time == t][0] for t in (0.05, 0.15, 0.25)]
+    np.testing.assert_allclose(shown, n * U / (1 + n * dt) ** np.arange(1, 4), rtol=1e-14)

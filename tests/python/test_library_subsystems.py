@@ -14,8 +14,10 @@ from saltus.library import (
     ControlPort,
     DataSource,
     DelayN,
+    EdgeDetection,
     EnabledSubsystem,
     Gain,
+    IfThenElse,
     Integrator,
     Multiplexer,
     Pulse,
@@ -609,3 +611,107 @@ def test_a_part_inside_a_part_returns_to_its_start_where_that_is_enabled(states,
         round(t, 9): v for t, v in zip(run.time, run["y"], strict=True)
     }  # the last row of each time
     assert [y[t] for t in (0.5, 2.5, 4.0, 5.0, 7.0, 9.0)] == pytest.approx(anew[states], abs=1e-9)
+
+
+def sums_at_triggers(part, hold):
+    """A `TriggeredSubsystem` of a part with the inputs `in` and `enable`; with `hold` its output is
+    the last one while it is not enabled.
+    """
+    builder = saltus.DiagramBuilder()
+    builder.add(part)
+    to_sum = builder.add(Gain(1.0, name="in"))
+    enable = builder.add(Gain(1.0, name="enabled"))
+    builder.connect(to_sum.output(), part.input("in"))
+    builder.connect(enable.output(), part.input("enable"))
+    shown = part.output()
+    if hold:
+        held, last = builder.add(IfThenElse(name="held"), UnitDelay(-1, name="last"))
+        condition = builder.add(Comparator(">", name="condition"))
+        zero = builder.add(Constant(0.0, name="zero"))
+        builder.connect(enable.output(), condition.input(0))
+        builder.connect(zero.output(), condition.input(1))
+        builder.connect(condition.output(), held.input(0))
+        builder.connect(shown, held.input(1))
+        builder.connect(last.output(), held.input(2))
+        builder.connect(held.output(), last.input())
+        shown = held.output()
+    builder.export_input(to_sum.input(), "in")
+    builder.export_input(enable.input(), "enabled")
+    builder.export_output(shown, "out")
+    return TriggeredSubsystem(builder.build("part"), name="outer")
+
+
+def summing():
+    """y = the sum of the inputs at the executions."""
+    builder = saltus.DiagramBuilder()
+    add, last = builder.add(Adder("++", name="add"), UnitDelay(-1, name="last"))
+    builder.connect(last.output(), add.input(1))
+    builder.connect(add.output(), last.input())
+    builder.export_input(add.input(0), "in")
+    builder.export_output(add.output(), "out")
+    return builder.build("sum")
+
+
+@pytest.mark.parametrize("hold", [False, True])
+def test_an_enabled_part_of_a_triggered_one_is_asked_at_the_triggers(hold):
+    """Triggers at 0.5, 1.5, ...; enabled in [0, 2], [4, 6], ...: at 0.5, 1.5, 4.5, 5.5, ..."""
+    part = EnabledSubsystem(summing(), outputs="reset", name="part")
+    control = Pulse(period=4.0), Pulse(period=1.0, phase_delay=0.5)
+    times = np.arange(0.75, 12.0, 0.5)
+    shown = saltus.response(sums_at_triggers(part, hold), 1.0, *control, t=times)
+    triggers = np.arange(0.5, 12.0)
+    counts = np.cumsum(triggers % 4.0 < 2.0)
+    values = counts if hold else np.where(triggers % 4.0 < 2.0, counts, 0)
+    np.testing.assert_array_equal(shown, values[np.searchsorted(triggers, times) - 1])
+
+
+@pytest.mark.parametrize(
+    ("part", "words"),
+    [
+        (lambda: EnabledSubsystem(summing(), name="part"), "give outputs='reset'"),
+        (
+            lambda: EnabledSubsystem(summing(), states="reset", outputs="reset", name="part"),
+            "give states='held'",
+        ),
+    ],
+)
+def test_what_follows_edges_is_refused_inside_a_triggered_part(part, words):
+    with pytest.raises(saltus.ModelError, match=rf"block 'outer.part.part': .*{words}"):
+        sums_at_triggers(part(), False)
+
+
+def test_an_enabled_part_without_states_has_none_to_reset():
+    part = EnabledSubsystem(Gain(2.0), states="reset", outputs="reset", name="part")
+    outer = sums_at_triggers(part, False)
+    shown = saltus.response(outer, 3.0, 1.0, Pulse(period=2.0, phase_delay=1.0), t=[0.5, 1.5])
+    assert shown.tolist() == [0.0, 6.0]
+
+
+def test_a_triggered_part_inside_a_triggered_one_is_refused():
+    inner = TriggeredSubsystem(Gain(1.0), name="inner")
+    builder = saltus.DiagramBuilder()
+    builder.add(inner)
+    builder.export_input(inner.input("in"), "in")
+    builder.export_input(inner.input("trigger"), "call")
+    builder.export_output(inner.output(), "out")
+    with pytest.raises(saltus.ModelError, match=r"'outer.part.inner': .*EdgeDetection\(dt=-1\)"):
+        TriggeredSubsystem(builder.build("part"), name="outer")
+
+
+def test_an_edge_detection_stands_for_a_triggered_part_inside_a_triggered_one():
+    """Calls rise at 1, 4, 7, ...; the triggers after them are at 1.5, 4.5, 7.5, ..."""
+    part = EnabledSubsystem(summing(), outputs="reset", name="part")
+    builder = saltus.DiagramBuilder()
+    edge = builder.add(EdgeDetection(dt=-1, name="edge"))
+    builder.add(part)
+    builder.connect(edge.output(), part.input("enable"))
+    builder.export_input(part.input("in"), "in")
+    builder.export_input(edge.input(), "call")
+    builder.export_output(part.output(), "out")
+    outer = TriggeredSubsystem(builder.build("whole"), name="outer")
+    calls = Pulse(period=3.0, pulse_width=0.5, phase_delay=1.0)
+    times = np.arange(0.75, 12.0)
+    shown = saltus.response(outer, 1.0, calls, Pulse(period=1.0, phase_delay=0.5), t=times)
+    triggers = np.floor(times - 0.5) + 0.5
+    called = triggers % 3.0 == 1.5
+    np.testing.assert_array_equal(shown, np.where(called, (triggers - 1.5) // 3.0 + 1.0, 0.0))

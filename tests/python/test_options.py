@@ -202,7 +202,9 @@ def test_recorded_signals_in_the_options():
     ball = Ball()
     options = SimulatorOptions(recorded_signals={"s": ball.output()})
     assert set(saltus.simulate(ball, ball.create_context(), (0.0, 0.1), options).outputs) == {"s"}
-    assert not saltus.simulate(ball, ball.create_context(), (0.0, 0.1)).outputs
+    assert set(saltus.simulate(ball, (0.0, 0.1)).outputs) == {"state"}
+    none = SimulatorOptions(recorded_signals={})
+    assert not saltus.simulate(ball, (0.0, 0.1), options=none).outputs
 
 
 def test_recording_events_can_be_switched_off():
@@ -231,3 +233,40 @@ def test_zeno_tolerance_of_the_options_and_of_a_guard():
     for status, times in (entered({"zeno_tolerance": 0.0}), entered({}, zeno_tolerance=0.0)):
         assert status == "chattering"
         assert times == []
+
+
+def ticking(monitors=False):
+    """x'' = -x, with ticks at 0.5, 1.5, ...; zeros of x are seen by a monitor, which is no instant."""
+    system = saltus.LeafSystem(name="ticking")
+    system.declare_continuous_state(
+        [1.0, 0.0], ode=lambda t, s: [s.continuous_state[1], -s.continuous_state[0]]
+    )
+    system.declare_discrete_state([0.0])
+    system.declare_periodic_update(
+        lambda t, s: s.with_discrete_state(s.discrete_state + 1.0), period=1.0, offset=0.5
+    )
+    if monitors:
+        system.declare_zero_crossing(lambda t, s: s.continuous_state[0], name="zero")
+    return system
+
+
+@pytest.mark.parametrize("monitors", [False, True])
+def test_major_steps_are_counted_by_instants(monitors):
+    """To 4.2 s: the start, four ticks and the end. Minor steps and monitors do not count."""
+    system = ticking(monitors)
+    run = saltus.simulate(system, (0.0, 4.2))
+    assert run.statistics.instants == 6 and run.statistics.steps > 6
+    assert saltus.simulate(system, (0.0, 4.2), max_major_steps=6).status == "reached_end"
+    for most in range(1, 6):
+        short = saltus.simulate(system, (0.0, 4.2), max_major_steps=most, throw=False)
+        assert short.status == "step_limit" and short.statistics.instants == most
+        assert short.context.discrete_state[0] == most - 1
+
+
+def test_lengths_of_major_and_minor_steps():
+    """Instants at 0, 0.25, ..., 1; of the minor steps none is longer than its bound."""
+    system = saltus.system_of(lambda t, x: [-x[0]], [1.0])
+    run = saltus.simulate(system, (0.0, 1.0), max_major_step_length=0.25, recorded_signals=["x"])
+    assert run.statistics.instants == 5
+    run = saltus.simulate(system, (0.0, 1.0), max_minor_step_size=0.01, recorded_signals=["x"])
+    assert run.statistics.instants == 2 and np.diff(run.time).max() <= 0.01 * (1.0 + 1e-12)

@@ -109,8 +109,14 @@ def test_impossible_signals_are_refused(signals):
 
 def test_nothing_is_recorded_where_that_is_said():
     assert run(recorded_signals={}).outputs == {}
-    source = Sine(name="source")  # no diagram, so it exports nothing
-    assert saltus.simulate(source, source.create_context(), (0.0, 1.0)).outputs == {}
+    assert saltus.simulate(Sine(), (0.0, 1.0), recorded_signals=[]).outputs == {}
+
+
+def test_a_block_alone_records_its_outputs():
+    assert list(saltus.simulate(Sine(), (0.0, 1.0)).outputs) == ["out"]
+    system = saltus.system_of(lambda t, x: [x[1], -x[0]], [1.0, 0.0])
+    results = saltus.simulate(system, (0.0, 1.0))
+    assert list(results.outputs) == ["x"] and results.time[[0, -1]].tolist() == [0.0, 1.0]
 
 
 @pytest.mark.parametrize(

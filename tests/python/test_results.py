@@ -102,7 +102,7 @@ def test_the_final_context(ball_results):
 def test_recording_changes_no_bit(ball_results):
     ball = Ball()
     context = ball.create_context().with_continuous_state([10.0, 0.0])
-    bare = saltus.simulate(ball, context, (0.0, 12.0), rtol=1e-10, atol=1e-12)
+    bare = saltus.simulate(ball, context, (0.0, 12.0), rtol=1e-10, atol=1e-12, recorded_signals=[])
     assert bare.context == ball_results.context
     assert np.array_equal(bare.events.times("bounce"), ball_results.events.times("bounce"))
     assert bare.time.size == 0

@@ -117,3 +117,21 @@ def test_a_time_that_is_beyond_the_end_by_rounding_is_the_end():
     )
     assert swept["time"].values[-1] == 1.9
     assert np.isfinite(swept["y"].values).all()
+
+
+def test_pieces_of_a_scene_whose_options_have_rows_for_all_of_it():
+    """The refusal of either piece says how to choose its times; together they have all rows."""
+    scene = saltus.scene("lorenz")
+    half, times = 0.5 * scene.t_span[1], np.array(scene.options.save_at)
+    with pytest.raises(ModelError, match=rf"save_at=\[t for t in times if t <= {half}\], or make"):
+        saltus.simulate(scene.system, scene.context, (0.0, half), scene.options)
+    first = saltus.simulate(
+        scene.system, scene.context, (0.0, half), scene.options, save_at=times[times <= half]
+    )
+    span = (half, scene.t_span[1])
+    with pytest.raises(ModelError, match=rf"save_at=\[t for t in times if {half} <= t\], or begin"):
+        saltus.simulate(scene.system, first.context, span, scene.options)
+    last = saltus.simulate(
+        scene.system, first.context, span, scene.options, save_at=times[times >= half]
+    )
+    assert set(times) <= {*first.time, *last.time}

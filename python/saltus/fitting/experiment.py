@@ -22,7 +22,7 @@ class EventTimes:
     The k-th time belongs to the k-th event of the run; more events of the run do not count. An
     event that the run does not have is taken at the end of the run, so that the residual is
     continuous where an event leaves the run; or at the predicted Zeno time, if the events
-    accumulated there.
+    accumulated there. At the end of the run it has no derivative, and `warnings` of the fit name it.
 
     Parameters
     ----------

@@ -147,6 +147,20 @@ class EventSeries:
             slopes = np.concatenate([slopes, np.tile(slope, (missing, 1))])
         return Model(times[self.entry], slopes[self.entry])
 
+    def lacking(self, results: Results) -> str:
+        """Which events of the data the run does not have before its end, in words; empty if none.
+        Those that accumulated before it are there.
+        """
+        wanted = int(self.entry.max(initial=-1)) + 1
+        count = len(self._found(results, self.kind, 0)[0])
+        if count >= wanted or self._beyond(results, 0)[0] != self.end:
+            return ""
+        return (
+            f"the run has {count} of the {wanted} events '{self.name}' before its end at "
+            f"t = {self.end:g} s; a missing one counts at the end, where it does not depend on "
+            "parameters: make t_span longer, or give other start values"
+        )
+
     def _found(
         self, results: Results, kind: str | None, count: int
     ) -> tuple[np.ndarray, np.ndarray]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import time
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -16,6 +17,14 @@ from saltus.fitting.result import FitResult, Start
 from saltus.fitting.trial import Stopped
 
 __all__ = ["Ended", "Optimizer"]
+
+
+class _Flat(Exception):
+    """The gradient of the cost is exactly zero at these numbers of the optimizer."""
+
+    def __init__(self, w: np.ndarray):
+        super().__init__()
+        self.w = w
 
 
 class Ended(NamedTuple):
@@ -91,7 +100,8 @@ class Optimizer:
         """The outcome of `least_squares`, and where it ended.
 
         It gets numbers near 1, because its xtol compares the step with the length of all of them:
-        beside a parameter of 1e6 one of 1e-3 would never have to be found.
+        beside a parameter of 1e6 one of 1e-3 would never have to be found. Where the gradient is
+        zero its trust region has no size, and its next step is nan: it is stopped there.
         """
         problem, places = self.problem, self.problem.coordinates
         scale = places.scale(u)
@@ -100,21 +110,37 @@ class Optimizer:
             inside: np.ndarray = np.clip(w * scale, places.lower, places.upper)
             return inside
 
+        def slopes(w: np.ndarray) -> np.ndarray:
+            jacobian = problem.jacobian(back(w))
+            if not (jacobian.T @ problem.residuals(back(w))).any():
+                raise _Flat(w.copy())
+            scaled: np.ndarray = jacobian * scale
+            return scaled
+
+        call = functools.partial(
+            self.least_squares,
+            lambda w: problem.residuals(back(w)),
+            bounds=(places.lower / scale, places.upper / scale),
+            x_scale="jac",
+        )
         try:
-            found = self.least_squares(
-                lambda w: problem.residuals(back(w)),
-                u / scale,
-                jac=lambda w: problem.jacobian(back(w)) * scale,
-                bounds=(places.lower / scale, places.upper / scale),
-                x_scale="jac",
-                **self.settings,
-            )
+            found = call(u / scale, jac=slopes, **self.settings)
+        except _Flat as end:  # with one evaluation it takes no step
+            jacobian = problem.jacobian(back(end.w)) * scale
+            found = call(end.w, jac=lambda w: jacobian, **self.settings | {"max_nfev": 1})
         except (ValueError, TypeError) as error:  # a setting that makes no sense
             raise ModelError(f"fit: {error}") from error
         return found, back(found.x)
 
     def _status(self, found: Any, point: Point) -> tuple[str, str]:
         """How `least_squares` ended, and why."""
+        if not point.jacobian.any():
+            return "stalled", (
+                "no residual depends on a parameter there, so no step lowers the cost: the "
+                "warnings say what is missing; give other start values, or other data"
+            )
+        if not (point.jacobian.T @ point.residuals).any():
+            return "converged", "the gradient of the cost is zero"
         if found.status == 0:
             return "max_nfev", f"{found.nfev} evaluations were not enough; give max_nfev, or starts"
         if found.status == 3 and self._meets_jump(point):

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from saltus.fitting.observed import EventSeries
 from saltus.fitting.optimize import Ended
 from saltus.fitting.problem import Point, Problem
 from saltus.fitting.result import Compared, FitResult
 from saltus.fitting.uncertainty import Uncertainty, uncertainty
+from saltus.results import Results
 
 __all__ = ["result_of"]
 
@@ -34,6 +37,7 @@ def result_of(
     with np.errstate(invalid="ignore"):
         covariance = found.covariance * np.outer(slope, slope)
     free = float("inf") if absolute else len(point.residuals) - len(values)
+    runs = tuple(t.show(v) for t, v in zip(problem.trials, each, strict=True))
     return FitResult(
         parameters=dict(zip(coordinates.labels, values.tolist(), strict=True)),
         covariance=covariance,
@@ -42,8 +46,8 @@ def result_of(
         cost=ended.cost,
         status=ended.status,
         message=ended.message,
-        warnings=tuple(_warnings(problem, point, found, absolute)),
-        runs=tuple(t.show(v) for t, v in zip(problem.trials, each, strict=True)),
+        warnings=(*_lacking(problem, runs), *_warnings(problem, point, found, absolute)),
+        runs=runs,
         contexts=tuple(t.start(v) for t, v in zip(problem.trials, each, strict=True)),
         compared=_compared(problem, point),
         missing=sum(trial.missing for trial in problem.trials),
@@ -87,6 +91,17 @@ def _compared(problem: Problem, point: Point) -> tuple[Compared, ...]:
                 )
             )
     return tuple(found)
+
+
+def _lacking(problem: Problem, runs: Sequence[Results]) -> list[str]:
+    """Which events of the data the runs do not have."""
+    several = len(runs) > 1
+    return [
+        f"{trial.bound.experiment.name}: {said}" if several else said
+        for trial, run in zip(problem.trials, runs, strict=True)
+        for each in trial.observed
+        if isinstance(each, EventSeries) and (said := each.lacking(run))
+    ]
 
 
 def _warnings(problem: Problem, point: Point, found: Uncertainty, absolute: bool) -> list[str]:

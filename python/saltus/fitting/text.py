@@ -21,7 +21,7 @@ def as_text(fit: FitResult) -> str:
         "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
         for row in cells
     ]
-    warned = [f"warning: {each}" for each in fit.warnings]
+    warned = [*_why(fit), *(f"warning: {each}" for each in fit.warnings)]
     return "\n".join([_head(fit), *(f"  {line}" for line in lines), *warned])
 
 
@@ -31,7 +31,8 @@ def as_html(fit: FitResult) -> str:
         return f"<tr>{inner}</tr>"
 
     body = "".join(row("td", cells) for cells in _rows(fit))
-    warned = "".join(f"<p>warning: {html.escape(each)}</p>" for each in fit.warnings)
+    said = [*_why(fit), *(f"warning: {each}" for each in fit.warnings)]
+    warned = "".join(f"<p>{html.escape(each)}</p>" for each in said)
     head = html.escape(_head(fit))
     return f"<p><b>{head}</b></p><table>{row('th', TITLES)}{body}</table>{warned}"
 
@@ -42,6 +43,11 @@ def _head(fit: FitResult) -> str:
         f"fit: {fit.status} after {fit.evaluations} evaluations, {len(fit.residuals)} data"
         f"{missing}, cost {fit.cost:.4g}"
     )
+
+
+def _why(fit: FitResult) -> list[str]:
+    """The reason, if it has not converged."""
+    return [] if fit.success else [f"{fit.status}: {fit.message}"]
 
 
 def _rows(fit: FitResult) -> list[tuple[str, ...]]:

@@ -19,8 +19,9 @@ __all__ = [
 class DerivativeDiscrete(Block, _core.DerivativeDiscrete):
     """y[k] = (u[k] - u[k-1]) / dt, entry by entry; y[0] = 0, as there is no u before the first.
 
-    With a filter of the coefficient N: y[k] = N (u[k] - x[k]), x[k] = x[k-1] + dt y[k], the
-    derivative s N / (s + N) of u by the backward rule, which is stable for every N.
+    With a filter of the coefficient N: y[k] = N (u[k] - x[k]), x[k] = x[k-1] + dt y[k], x[-1] =
+    u[0], so that y[0] = 0 too: the derivative s N / (s + N) of u by the backward rule, which is
+    stable for every N. Simulink's Discrete Derivative has u[-1] = 0 by default: y[0] = u[0] / dt.
 
     Parameters
     ----------
@@ -135,8 +136,14 @@ class PIDDiscrete(Block, _core.PIDDiscrete):
     """v[k] = kp u[k] + i[k] + kd d[k]; y[k] = v[k], or v[k] between the limits.
 
     i[k+1] = i[k] + ki dt u[k], and d[k] = n (u[k] - f[k]) with f[k] = f[k-1] + dt d[k], the
-    derivative behind a filter. u is the error. The first tick makes no kick: d[0] = 0. With a limit
-    the integral does not change at ticks where v is beyond the limit and ki u pushes outward.
+    derivative behind a filter. u is the error. f[-1] = u[0]: the first tick makes no kick, d[0] =
+    0. With a limit the integral does not change at ticks where v is beyond the limit and ki u
+    pushes outward.
+
+    A `PID` starts its filter at f(0) = 0, and the PIDDiscrete of pycollimator and Simulink's
+    Discrete PID Controller start theirs at 0 too: by the same rule d[0] = n u[0] / (1 + n dt). The
+    last entries of the discrete state are i, f, and 1 after the first tick: in a context with 1 there,
+    the run starts with the f of the context.
 
     Parameters
     ----------

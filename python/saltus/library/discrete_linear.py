@@ -21,7 +21,7 @@ __all__ = [
 
 class FilterDiscrete(Block, _core.FilterDiscrete):
     """y[k] = b_0 u[k] + b_1 u[k-1] + ... + b_m u[k-m], entry by entry: a filter with a finite
-    response.
+    response. u[-1] = u[-2] = ... = `initial_state`.
 
     Parameters
     ----------

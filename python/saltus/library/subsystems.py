@@ -13,6 +13,7 @@ from saltus._porting import is_reset, refusing
 from saltus.diagram import Diagram, DiagramBuilder
 from saltus.errors import BlockParameterError, ShapeMismatchError
 from saltus.library.block import Block
+from saltus.library.inside_triggered import edges_missed_by, refuse_edges
 from saltus.system import System
 
 __all__ = ["ControlPort", "EnabledSubsystem", "SubsystemOutput", "TriggeredSubsystem"]
@@ -147,7 +148,8 @@ class EnabledSubsystem(_Subsystem):
     seen, and its resets and updates write nothing. The time that its blocks read, as a `Clock`
     does, goes on. When it is enabled again, its guards are armed as where a mode is entered. Its
     other inputs and its outputs are those of the system; use them, not those of the system itself,
-    whose outputs are computed from its inputs all the time.
+    whose outputs are computed from its inputs all the time. Inside a `TriggeredSubsystem` it needs
+    states "held" and outputs "reset".
 
     Parameters
     ----------
@@ -192,6 +194,7 @@ class EnabledSubsystem(_Subsystem):
     ):
         execution = {"kind": "enabled", "states": states}
         self._compose(name, system, "enable", initial_outputs, execution, {"outputs": outputs})
+        self._missed_edges = edges_missed_by(system, states, outputs)
 
 
 class TriggeredSubsystem(_Subsystem):
@@ -199,7 +202,8 @@ class TriggeredSubsystem(_Subsystem):
 
     At an edge the outputs take the values that the system has there, and then its updates run,
     together; they read the values before. Its blocks have the inherited sample time, dt = -1, no
-    continuous state and no guards. A trigger that is true at the start of a run has no edge there.
+    continuous state and no guards, and follow no edges: no `TriggeredSubsystem`, and no
+    `EnabledSubsystem` that holds its outputs or resets its states. A trigger that is true at the start of a run has no edge there.
     As with a `ZeroOrderHold`, a block that reads an output at the edge itself reads the value
     before it: of two subsystems in a row with one trigger the second is a trigger behind.
 
@@ -241,6 +245,12 @@ class TriggeredSubsystem(_Subsystem):
         name: str | None = None,
     ):
         execution = {"kind": "triggered", "edge": edge}
+        if isinstance(system, System):
+            refuse_edges(name or type(self).__name__, system)
+        self._missed_edges = (
+            "put an EnabledSubsystem with outputs='reset' in its place, enabled by an "
+            "EdgeDetection(dt=-1)"
+        )
         self._compose(name, system, "trigger", initial_outputs, execution, {"edge": edge})
 
 

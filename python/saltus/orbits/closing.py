@@ -25,8 +25,12 @@ ELSEWHERE = 0.381966
 class Closing:
     """F(u) = P(s) - s for the unknowns u, which are the active states of s, and more in some kinds.
 
-    All states are active but for labels: discrete states that are whole numbers at both ends and do
-    not depend on the active ones, such as a count or a side.
+    All states are active but for labels. These are discrete states that are whole numbers at both
+    ends and do not depend on the active ones, such as a count or a side, and those that nothing
+    reads or writes.
+
+    Discrete states that keep the time of an event (`stamps`) are relative to the time: s = z - t,
+    with s' = -1 between events. In these coordinates an autonomous system stays one.
     """
 
     autonomous = True
@@ -34,13 +38,20 @@ class Closing:
     def __init__(self, runs: Runs, context: _core.Context):
         self.runs, self.base = runs, context
         self.states = States(context)
-        self.values = self.states.of(context)
+        self.stamps = np.zeros(len(self.states), dtype=bool)
+        self.values = self.of(context)
         self.labels = np.zeros(len(self.states), dtype=bool)
 
     @property
     def active(self) -> np.ndarray:
         """(m,) the indices of the active states."""
         return np.flatnonzero(~self.labels)
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the states s: 'm.z[0] - t' for one that keeps a time."""
+        known = zip(self.states.names, self.stamps, strict=True)
+        return [f"{name} - t" if stamp else name for name, stamp in known]
 
     @property
     def unknowns(self) -> np.ndarray:
@@ -51,7 +62,24 @@ class Closing:
         """The context with the unknowns as its active states."""
         values = self.values.copy()
         values[self.active] = unknowns[: len(self.active)]
-        return self.states.put(self.base, values)
+        return self.put(self.base, values)
+
+    def of(self, context: _core.Context) -> np.ndarray:
+        """(n,) the states s of a context."""
+        return np.asarray(self.states.of(context) - self.stamps * context.time)
+
+    def put(self, context: _core.Context, values: np.ndarray) -> _core.Context:
+        """The context with the states s."""
+        return self.states.put(context, values + self.stamps * context.time)
+
+    def flow(self, context: _core.Context) -> np.ndarray:
+        """(n,) ds/dt."""
+        return self.runs.flow(context) - self.stamps
+
+    def take_stamps(self, stamps: np.ndarray) -> None:
+        """Makes the values relative to the time where they keep one."""
+        self.values = self.values + (1.0 * self.stamps - stamps) * self.base.time
+        self.stamps = stamps
 
     def at(self, unknowns: np.ndarray, parameters: Sequence[str] = ()) -> Arc:
         """The run from these unknowns to its return, with its derivatives."""
@@ -90,11 +118,18 @@ class Closing:
         start[self.active] = by
         return start, arc.period_by_start[self.active] @ by + arc.period_by_parameters
 
-    def again(self, arc: Arc) -> Arc:
-        """The same start at another time, at which an autonomous system does the same."""
-        shifted = self.base.with_time(self.base.time + ELSEWHERE * arc.period)
-        unknowns = np.append(arc.start[self.active], arc.period)
-        return self.arc(self.states.put(shifted, arc.start), unknowns)
+    def again(self, arc: Arc, stamps: np.ndarray | None = None) -> Arc:
+        """The same start at another time, at which an autonomous system does the same. The states
+        `stamps`, by default those of the closing, move with the time.
+        """
+        shift = ELSEWHERE * arc.period
+        return self.elsewhere(arc, arc.begin.with_time(arc.begin.time + shift), stamps)
+
+    def elsewhere(self, arc: Arc, context: _core.Context, stamps: np.ndarray | None) -> Arc:
+        """The start of the arc at the time of a context, and with its modes."""
+        by = (self.stamps if stamps is None else stamps) * (context.time - arc.begin.time)
+        start = self.states.put(context, self.states.of(arc.begin) + by)
+        return self.arc(start, np.append(arc.start[self.active], arc.period))
 
     def move_to_end(self, arc: Arc) -> None:
         """Begins anew at the end of the arc, with its modes and labels."""
@@ -105,6 +140,14 @@ class Closing:
         whole = (arc.start % 1.0 == 0.0) & (arc.end % 1.0 == 0.0)
         whole[: len(self.states.continuous)] = False
         self.labels = whole & ~np.any(arc.by_start[:, ~whole] != 0.0, axis=1)
+        self.labels |= self._untouched(arc)
+
+    def _untouched(self, arc: Arc) -> np.ndarray:
+        """(n,) the discrete states that keep their value, and on which nothing else depends."""
+        own = np.eye(len(self.states))
+        alone = np.all(arc.by_start == own, axis=0) & np.all(arc.by_start == own, axis=1)
+        alone[: len(self.states.continuous)] = False
+        return np.asarray(alone & (arc.start == arc.end))
 
     def made(
         self,
@@ -123,18 +166,18 @@ class Closing:
         by = derivatives_of(results)
         times = np.zeros(len(known)) if times is None else times
         self._require(results, by, times)
-        flow = self.runs.flow(results.context)
+        flow = self.flow(results.context)
         total = by + np.outer(flow, times)
         return Arc(
-            start=self.states.of(start),
-            end=self.states.of(results.context) + moved * flow,
+            start=self.of(start),
+            end=self.of(results.context) + moved * flow,
             period=period,
             monodromy=by[:, :n],
             by_start=total[:, :n],
             by_parameters=total[:, n:],
             period_by_start=times[:n],
             period_by_parameters=times[n:],
-            flow_start=self.runs.flow(start),
+            flow_start=self.flow(start),
             flow_end=flow,
             begin=start,
             final=results.context,

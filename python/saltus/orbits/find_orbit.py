@@ -23,6 +23,7 @@ from saltus.orbits.newton import Found, search
 from saltus.orbits.orbit import PeriodicOrbit
 from saltus.orbits.runs import Runs
 from saltus.orbits.section import Section
+from saltus.orbits.stamps import first_arc
 from saltus.system import OutputPort, System
 
 __all__ = ["periodic_orbit"]
@@ -64,6 +65,9 @@ def periodic_orbit(
     1671; R. Leine, H. Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004,
     chapter 7). A Newton step that leaves the domain, or that does not bring the return closer to
     the start, is halved. Stable and unstable orbits are found alike.
+
+    A discrete state z that keeps the time of an event returns if t - z does. It is found by its
+    runs: the same start at another time, with z moved by as much, must end moved by as much.
 
     Parameters
     ----------
@@ -139,7 +143,7 @@ def periodic_orbit(
     closing = _closing(runs, start, section, period, firings, max_period)
     _require_parameters(closing, wrt)
     if closing.autonomous:
-        _require_same(closing, closing.at(closing.unknowns))
+        _require_same(closing, first_arc(closing))
     found = search(closing, tolerance, max_iterations)
     notes = [found.message] if found.status == "converged" and found.message else []
     if found.status == "converged" and not closing.autonomous:
@@ -237,7 +241,8 @@ def _require_same(closing: Closing, arc: Arc) -> None:
         raise ModelError(
             f"{WHERE}: t = {time} s: the same start leads elsewhere ('{name}') than at "
             f"t = {arc.begin.time} s, so the time moves the system; expected an autonomous one: "
-            "give period=..., the period of the drive"
+            "give period=..., the period of the drive. A discrete state that keeps a time must "
+            "keep the time of an event itself"
         )
     raise ModelError(
         f"{WHERE}: t = {time} s: '{name}' returns after the first {arc.period} s and not after the "

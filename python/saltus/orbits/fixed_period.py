@@ -39,9 +39,9 @@ class FixedPeriod(Closing):
         results = self.runs.derived(start, start.time + self.period, names)
         return self.made(start, results, self.period, 0.0, None, parameters)
 
-    def again(self, arc: Arc) -> Arc:
+    def again(self, arc: Arc, stamps: np.ndarray | None = None) -> Arc:
         """The same start one period later."""
-        return self.arc(self.states.put(arc.final, arc.start), self.unknowns)
+        return self.elsewhere(arc, arc.final, stamps)
 
     def implicit(self, arc: Arc) -> tuple[np.ndarray, np.ndarray]:
         for name in arc.parameters:
@@ -50,9 +50,9 @@ class FixedPeriod(Closing):
 
     def _require_same_drive(self, arc: Arc, name: str) -> None:
         """Two periods from one start must have one end, also beside the value of the parameter."""
-        starts = [self.states.put(moved(c, name, PART), arc.start) for c in (arc.begin, arc.final)]
+        starts = [self.put(moved(c, name, PART), arc.start) for c in (arc.begin, arc.final)]
         ends = [self.runs.plain(s, s.time + self.period).context for s in starts]
-        change = np.abs(self.states.of(ends[1]) - self.states.of(ends[0]))
+        change = np.abs(self.of(ends[1]) - self.of(ends[0]))
         square = np.ix_(self.active, self.active)
         growth = max(1.0, float(np.linalg.norm(arc.by_start[square])))
         if np.any(change[self.active] > SAME * growth * self.scale(arc)):

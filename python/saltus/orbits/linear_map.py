@@ -42,7 +42,9 @@ class PeriodMap:
     D: np.ndarray
     """dy/du: (output, input)"""
     states: tuple[str, ...]
-    """continuous states, then discrete ones that are numbers"""
+    """continuous states, then discrete ones that are numbers; one that keeps the time of an event
+    is relative to the time, 'm.z[0] - t'
+    """
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     x0: np.ndarray
@@ -52,7 +54,9 @@ class PeriodMap:
     y: np.ndarray
     """(output,) at the start"""
     frozen: dict[str, float]
-    """the discrete states that are labels, whole numbers on which nothing depends smoothly"""
+    """the discrete states that are labels: whole numbers on which nothing depends smoothly, and
+    those that nothing reads or writes
+    """
     period: float
     """[s]"""
     context: _core.Context

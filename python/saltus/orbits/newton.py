@@ -9,6 +9,7 @@ import numpy as np
 from saltus.errors import SimulationError
 from saltus.orbits.arc import Arc
 from saltus.orbits.closing import Closing
+from saltus.orbits.stamps import first_arc
 
 __all__ = ["Found", "search"]
 
@@ -73,7 +74,7 @@ def _begin(closing: Closing) -> Arc:
     """The first arc from which modes and labels return."""
     reason = ""
     for _ in range(STARTS):
-        arc = closing.at(closing.unknowns)
+        arc = first_arc(closing)
         closing.take_labels(arc)
         reason = arc.unreturned(closing.states, closing.labels)
         if not reason:

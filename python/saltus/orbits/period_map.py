@@ -16,6 +16,7 @@ from saltus.orbits.arc import Arc
 from saltus.orbits.fixed_period import FixedPeriod
 from saltus.orbits.linear_map import PeriodMap
 from saltus.orbits.runs import Runs
+from saltus.orbits.stamps import first_arc
 from saltus.system import OutputPort, System
 
 __all__ = ["period_map"]
@@ -98,7 +99,7 @@ def period_map(
         raise ModelError(f"{WHERE}: '{system.name}' has no states; expected some")
     names = _inputs(system, start, inputs)
     closing = FixedPeriod(runs, start, float(period))
-    arc = closing.at(closing.unknowns, names)
+    arc = first_arc(closing, names)
     _require_return(closing, arc)
     closing.take_labels(arc)
     _require_same(closing, arc)
@@ -153,10 +154,10 @@ def _require_same(closing: FixedPeriod, arc: Arc) -> None:
 
 def _made(closing: FixedPeriod, arc: Arc, outputs: Any) -> PeriodMap:
     active = closing.active
-    names = tuple(closing.states.names[i] for i in active)
-    values = [closing.states.of(c)[active] for c in (arc.begin, arc.final)]
+    names = tuple(closing.names[i] for i in active)
+    values = [closing.of(c)[active] for c in (arc.begin, arc.final)]
     found = _outputs(closing, arc, outputs)
-    labels = {closing.states.names[i]: float(arc.start[i]) for i in np.flatnonzero(closing.labels)}
+    labels = {closing.names[i]: float(arc.start[i]) for i in np.flatnonzero(closing.labels)}
     c, d, y, rows = found or (
         np.eye(len(active)),
         np.zeros((len(active), len(arc.parameters))),

@@ -27,7 +27,7 @@ class Statistics:
     one
     """
     steps: int
-    """accepted minor steps"""
+    """accepted minor steps, which are those of the solver"""
     rejected: int
     """steps that were tried and not accepted"""
     restarts: int
@@ -41,7 +41,9 @@ class Statistics:
     """the linear solver of a stiff method, the size, and the reason; empty without a stiff method
     """
     instants: int
-    """major steps"""
+    """the start, the end, time events and events of guards with an effect, those of one time
+    counted as one; the option `max_major_steps` bounds this number
+    """
     events: int
     """resets, updates and mode changes"""
     events_by_name: dict[str, int]

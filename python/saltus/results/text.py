@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 __all__ = ["as_html", "as_text"]
 
+NOTHING = "nothing recorded: the system has no outputs, or recorded_signals is empty"
+
 
 def _span(results: Results) -> str:
     if results._core.apart:
@@ -66,7 +68,7 @@ def _facts(results: Results) -> list[tuple[str, str]]:
     rests = [e for e in results.events if e.kind == "zeno_enter"] if s.events else []
     facts = [
         ("why", results.message),
-        ("outputs", signals or "nothing recorded"),
+        ("outputs", signals or NOTHING),
         ("islands", f"{len(results.islands)} that stepped apart" if results.islands else ""),
         ("events", _events(results)),
         ("at rest", ", ".join(f"{e.block} from {e.time:.6g} s" for e in rests[:5])),

@@ -41,8 +41,9 @@ def simulate(
         The options of the run.
     recorded_signals : dict of str to OutputPort or str, or a list of str, optional
         The outputs to record, by name: ports, or paths such as "car.engine.torque". A list of paths
-        names each signal by its path. By default the outputs that a diagram exports, or of a block
-        the states that have names; ``[]`` records nothing.
+        names each signal by its path. By default the outputs of the system: those that a diagram
+        exports, and those of a block, but for one of all states where the states have names;
+        ``[]`` records nothing.
     **option_overrides
         Any option by name; it replaces the one in `options`: ``rtol=1e-9``,
         ``dense_output=True``, ``progress=True``, ...

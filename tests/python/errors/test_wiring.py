@@ -337,8 +337,12 @@ def test_a_control_port_within_a_control_port_needs_another_name():
     said = str(caught.value)
     assert "block 'outer': its system 'inner' has an input 'enable' already" in said
     assert "into a diagram that exports this input by another name" in said
-    with pytest.raises(ModelError, match="has an input 'trigger' already"):
+    with pytest.raises(ModelError, match="they see no edges of other signals"):
         TriggeredSubsystem(TriggeredSubsystem(Gain(2.0)))
+    leaf = saltus.LeafSystem(name="leaf")
+    leaf.declare_input_port("trigger")
+    with pytest.raises(ModelError, match="has an input 'trigger' already"):
+        TriggeredSubsystem(leaf)
     with pytest.raises(ModelError, match="its system is called 'enable'"):
         EnabledSubsystem(Gain(2.0, name="enable"))
 

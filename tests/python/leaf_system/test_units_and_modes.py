@@ -11,9 +11,9 @@ from saltus.library import Constant, EnabledSubsystem, StateMachine, Transition
 from saltus.scene_files import loads
 
 
-def test_a_block_alone_records_the_states_that_have_names():
+def test_a_block_alone_records_its_outputs_and_each_state_once():
     results = run()
-    assert list(results.outputs) == ["temperature", "wind"]
+    assert list(results.outputs) == ["temperature", "wind", "heater"]  # not "all" of them again
     assert results.units == {"temperature": "°C", "wind": "m/s"}
     assert not run(recorded_signals=[]).outputs
 

@@ -120,7 +120,7 @@ def test_errors(ball):
         ball.plot("xx")
     system = Ball()
     with pytest.raises(saltus.ModelError, match="give recorded_signals"):
-        saltus.simulate(system, system.create_context(), (0, 1)).plot()
+        saltus.simulate(system, (0, 1), recorded_signals=[]).plot()
 
 
 def test_a_run_of_one_row_and_one_that_failed():

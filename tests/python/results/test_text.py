@@ -22,7 +22,7 @@ def test_a_run_in_words():
 
 def test_what_there_is_not_is_not_told():
     system = Ball()
-    results = saltus.simulate(system, system.create_context(), (0, 1), record_events=False)
+    results = saltus.simulate(system, (0, 1), record_events=False, recorded_signals=[])
     text = repr(results)
     assert "nothing recorded" in text
     assert "dense output" not in text and "why" not in text and "at rest" not in text
