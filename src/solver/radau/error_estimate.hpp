@@ -62,16 +62,17 @@ class ErrorEstimate {
   /// Root mean square in allowed errors. `plain_` is overwritten.
   double in_allowed(const AllowedEstimate& allowed, double h, int stages) {
     const bool again = h < tuning::alike_tries * tried_;
-    const double shrunk = again ? std::pow(h / tried_, stages) : 0.0;
+    const double ratio = again ? h / tried_ : 1.0, shrunk = std::pow(ratio, stages);
     for (Index i = 0; i < estimate_.size(); ++i) {
       const double plain = std::abs(plain_[i]), left = std::abs(estimate_[i]);
       const double share = left < plain ? left / plain : 1.0;
-      double own = estimate_[i];
+      double own = estimate_[i], smooth = 1.0;
       if (again) {
+        smooth = shown_order(before_[i], estimate_[i], ratio, stages + 1.0);
         const double bound = thresholds::dense_room * tolerance_[i];
         own -= (1.0 - share) * inherited_estimate(before_[i], estimate_[i], shrunk, bound);
       }
-      plain_[i] = own / allowed.of(share);
+      plain_[i] = own / allowed.of(share * smooth);
     }
     return mean(plain_);
   }

@@ -56,6 +56,16 @@ class AllowedEstimate {
   double slow_, log_fast_, log_span_;
 };
 
+/// How much of the order of the estimate two tries of one step show, 0 to 1; `ratio` is the length of the
+/// second in the first. The error of a step is much smaller than its estimate only where both shrink as
+/// on a smooth solution. An estimate that shrinks by less than half of its order is the error itself:
+/// behind a jump of the derivative it shrinks as h, behind a kink as h^2.
+inline double shown_order(double before, double now, double ratio, double order) {
+  if (now == 0.0) return 1.0;
+  const double shown = std::log(std::abs(before / now)) / -std::log(ratio);
+  return std::clamp(2.0 * shown / order - 1.0, 0.0, 1.0);
+}
+
 /// The part of a fast estimate that the step has inherited: the distance of the state at its begin
 /// from the slow solution, which the step damps, and which no shorter step has less of. Two tries
 /// of one step tell it apart: their estimates are a + b and a + `shrunk` b with a the inherited
