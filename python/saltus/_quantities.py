@@ -22,6 +22,7 @@ __all__ = [
     "Quantity",
     "mode_names",
     "mode_of",
+    "named_states",
     "on_zeno_of",
     "quantity_of",
     "says",
@@ -143,6 +144,12 @@ def _texts(what: str, key: str, values: Any, example: str) -> tuple[str, ...]:
     if not isinstance(values, (list, tuple)) or not all(isinstance(v, str) for v in values):
         raise ModelError(f"{what}: {key}: expected {example}, found {values!r}")
     return tuple(values)
+
+
+def named_states(system: Any) -> tuple[int, ...]:
+    """The outputs of a block that show states by name."""
+    declared: Declared | None = getattr(system, "_declared_quantities", None)
+    return () if declared is None else declared.states
 
 
 def shown_twice(system: Any) -> tuple[int, ...]:

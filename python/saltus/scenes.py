@@ -126,11 +126,13 @@ class Scene:
         }
         return SimulatorOptions(recorded_signals=signals, **values)
 
-    def simulate(self, **options: Any) -> Results:
+    def simulate(self, time_span: tuple[float, float] | None = None, **options: Any) -> Results:
         """Runs the scene.
 
         Parameters
         ----------
+        time_span
+            [s] Begin and end of the run; by default those of the scene.
         options
             Options by name, such as `rtol=1e-9`; they replace those of the scene.
 
@@ -145,7 +147,8 @@ class Scene:
         >>> results.statistics.method
         'dop853'
         """
-        return simulate(self.system, self.context, self.t_span, self.options, **options)
+        span = self.t_span if time_span is None else time_span
+        return simulate(self.system, self.context, span, self.options, **options)
 
     def __repr__(self) -> str:
         begin, end = self.t_span

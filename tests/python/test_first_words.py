@@ -58,6 +58,16 @@ ANSWERS = {
     "max_step": (lambda: saltus.simulate(Plant(), (0, 1), max_step=0.1), "max_minor_step_size"),
     "t_eval": (lambda: saltus.simulate(Plant(), (0, 1), t_eval=[1.0]), "save_at=[...]"),
     "x0": (lambda: saltus.simulate(Plant(), (0, 1), x0=[1.0]), "with_continuous_state"),
+    "the state first": (
+        lambda: saltus.solve(lambda x, t: -x, (0, 1), [1.0]), "write (t, x), as in scipy",
+    ),
+    "the state first in a guard": (
+        lambda: saltus.solve(lambda t, y: -y, (0, 1), [1.0], events=[lambda y, t: y[0] - 0.5]),
+        "write (t, y), as in scipy",
+    ),
+    "guards": (
+        lambda: saltus.solve(lambda t, x: -x, (0, 1), [1.0], guards=[]), "it is called events here",
+    ),
     "dt": (lambda: saltus.simulate(Plant(), (0, 1), dt=0.1), "rtol and atol choose"),
     "k of a gain": (lambda: Gain(k=2.0), "it is called gain here"),
     "initial condition": (lambda: Integrator(initial_condition=1.0), "called initial_state here"),

@@ -72,3 +72,20 @@ def test_blocks_of_a_shared_diagram():
         scene.system["integrator"]
     with pytest.raises(saltus.ModelError, match="no diagram"):
         saltus.scene("bouncing-ball").system["ball"]
+
+
+def test_another_span():
+    scene = saltus.scene("thermostat")
+    results = scene.simulate((0.0, 10.0))
+    assert results.time[[0, -1]].tolist() == [0.0, 10.0]
+    again = scene.simulate(time_span=(0.0, 10.0))
+    assert again.context == results.context
+    with pytest.raises(saltus.ModelError, match="the span is time_span="):
+        scene.simulate(t_span=(0.0, 10.0))
+
+
+def test_another_span_of_a_file():
+    text = "version = 1\nstates = { x = { start = 1.0, rate = '-x' } }\nrun = { until = 1.0 }\n"
+    scene = saltus.scene_files.loads(text)
+    assert scene.simulate().context.time == 1.0
+    assert scene.simulate((0.0, 3.0)).context.time == 3.0

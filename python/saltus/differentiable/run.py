@@ -11,7 +11,8 @@ import numpy as np
 
 from saltus import _core
 from saltus._engine import core_context
-from saltus._signals import signals_of
+from saltus._quantities import named_states
+from saltus._signals import is_diagram, signals_of
 from saltus._span import span_of
 from saltus.differentiable.derivatives import derivatives_of, raise_for_gap
 from saltus.differentiable.settings import checked_gaps, counts_of, names_of, options_of
@@ -51,6 +52,8 @@ class Run:
         names = names_of(where, wrt)
         options = options_of(where, options, save_at, self.span, overrides)
         given = options.recorded_signals if recorded_signals is None else recorded_signals
+        if given is None and not is_diagram(system):  # a run that ends early has no row at its end
+            given = [system.output_names[i] for i in named_states(system)]
         self.options = replace(options, recorded_signals=signals_of(system, given))
         self.context = core_context(
             system.create_context(self.span[0]) if context is None else context

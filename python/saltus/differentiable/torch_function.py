@@ -50,7 +50,8 @@ def torch_function(
     options : SimulatorOptions, optional
         The options of each run; they can also be given by name, such as ``rtol=1e-9``.
     recorded_signals : dict or list of str, optional
-        The signals to return, as in `simulate`; by default the outputs of the system.
+        The signals to return, as in `simulate`; by default the outputs that a diagram
+        exports, or the states of a block that have names.
     save_at : list of float, optional
         [s] increasing times, in the time span, at which signals are returned; by default its end.
     events : dict of str to int, or list of str

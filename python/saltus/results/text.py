@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = ["as_html", "as_text"]
 
-NOTHING = "nothing recorded: the system has no outputs, or recorded_signals is empty"
+NOTHING = "nothing recorded; name some: recorded_signals=['block.port']"
 
 
 def _span(results: Results) -> str:

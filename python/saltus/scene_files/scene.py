@@ -128,11 +128,13 @@ class FileScene:
         """
         return FileScene(self.tree, self._sources, self.name, values)
 
-    def simulate(self, **options: Any) -> Results:
+    def simulate(self, time_span: tuple[float, float] | None = None, **options: Any) -> Results:
         """Runs the scene.
 
         Parameters
         ----------
+        time_span
+            [s] Begin and end of the run; by default those of the file.
         options
             Options by name, such as `rtol=1e-9`; they replace those of the file. If neither says
             `atol`, it is rtol/100.
@@ -144,7 +146,8 @@ class FileScene:
         """
         options = with_atol(self, options)
         try:
-            return simulate(self.system, self.context, span_of(self), self.options, **options)
+            span = span_of(self) if time_span is None else time_span
+            return simulate(self.system, self.context, span, self.options, **options)
         except SimulationError as error:
             error.args = (self.explained(str(error)), *error.args[1:])
             raise

@@ -14,7 +14,7 @@ from saltus.errors import ModelError
 from saltus.solving.form import Names
 from saltus.solving.guard import Guard
 
-__all__ = ["NONE", "Named", "named_of"]
+__all__ = ["NONE", "Named", "named_of", "require_time_first"]
 
 PLACED = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
 
@@ -114,3 +114,20 @@ def _positional(function: Any) -> list[str]:
     except (TypeError, ValueError):  # no function, or one of unknown signature
         return []
     return [each.name for each in arguments if each.kind in PLACED]
+
+
+def require_time_first(functions: Sequence[Any]) -> None:
+    """ModelError for a function whose arguments are called (x, t), as in `scipy.integrate.odeint`:
+    it would get the time as its state.
+    """
+    for function in functions:
+        code = getattr(function, "__code__", None)
+        first: tuple[str, ...] = (
+            () if code is None else code.co_varnames[: min(code.co_argcount, 2)]
+        )
+        if len(first) == 2 and first[1] in ("t", "time") and first[0] in ("x", "y", "u", "state"):
+            name = getattr(function, "__name__", "f")
+            raise ModelError(
+                f"solve: {name}({first[0]}, {first[1]}): expected the time first, and then the "
+                f"state: write ({first[1]}, {first[0]}), as in scipy.integrate.solve_ivp"
+            )

@@ -29,6 +29,9 @@ __all__ = ["solve"]
 
 HINTS = OPTIONS | {
     "fun": "the function is the first argument, f",
+    **dict.fromkeys(
+        ("guard", "guards", "event", "callback", "callbacks"), "it is called events here"
+    ),
     "jac": "it is called jacobian here",
     "jac_sparsity": "it is called jacobian_sparsity here",
     "lband": "say with jacobian_sparsity which entries may differ from zero",

@@ -17,7 +17,7 @@ from saltus.solving.flow import checked, flow_of, one_column
 from saltus.solving.form import Form, Names, chosen, require_numbers
 from saltus.solving.guard import Guard, functions_of
 from saltus.solving.jacobian import derivatives_of
-from saltus.solving.named import NONE, Named
+from saltus.solving.named import NONE, Named, require_time_first
 from saltus.solving.solution import BLOCK
 
 __all__ = ["SolvedSystem"]
@@ -47,7 +47,9 @@ class SolvedSystem(LeafSystem):
         form: Form,
         named: Named = NONE,
     ):
-        named.require_use([f, jacobian, *functions_of(guards)], len(args))
+        functions = [f, jacobian, *functions_of(guards)]
+        require_time_first(functions)
+        named.require_use(functions, len(args))
         super().__init__(name=BLOCK)
         self._form = form
         self._named = named

@@ -76,3 +76,14 @@ def test_statistics_under_both_names():
     results = saltus.scene("kepler").simulate()
     assert results.stats is results.statistics
     assert np.isnan(results.span).all() and not results.dense
+
+
+def test_a_diagram_that_exports_nothing_says_how_to_record():
+    builder = saltus.DiagramBuilder()
+    builder.add(saltus.library.Clock(name="clock"))
+    diagram = builder.build()
+    results = saltus.simulate(diagram, (0, 1))
+    assert "recorded_signals=['block.port']" in repr(results)
+    with pytest.raises(saltus.ModelError, match=r"recorded_signals=\['block.port'\] to the run"):
+        results.plot()
+    assert saltus.simulate(diagram, (0, 1), recorded_signals=["clock.out"])["clock.out"][-1] == 1.0

@@ -195,7 +195,9 @@ def _schedule(
     slow_window: float | None,
 ) -> Schedule:
     if not results.outputs and not results.dense:
-        raise ModelError("animate: nothing was recorded: give recorded_signals")
+        raise ModelError(
+            "animate: nothing was recorded: give recorded_signals=['block.port'] to the run"
+        )
     if not results.dense and not len(results.time):
         raise ModelError("animate: the run has no rows: run it with dense_output=True")
     begin, end = results.span if results.dense else (results.time[0], results.time[-1])

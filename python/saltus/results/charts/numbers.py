@@ -24,7 +24,10 @@ def labels_of(results: Results) -> list[str]:
     """The names of all recorded numbers: 'y', 'y[0]', ... of a vector, 'y[0,0]', ... of
     a matrix."""
     if not results.outputs:
-        raise ModelError("nothing was recorded, so there is nothing to draw: give recorded_signals")
+        raise ModelError(
+            "nothing was recorded, so there is nothing to draw: give recorded_signals="
+            "['block.port'] to the run, or the system an output"
+        )
     labels = []
     for name, array in results.outputs.items():
         labels += entry_names(name, array.shape[1:])

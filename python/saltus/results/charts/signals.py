@@ -51,7 +51,10 @@ def plot(results: Results, names: tuple[str, ...], ax: Any, style: dict[str, Any
 def chosen(results: Results, names: tuple[str, ...]) -> Panels:
     """The curves of each axes, with a title."""
     if not results.outputs:
-        raise ModelError("nothing was recorded, so there is nothing to draw: give recorded_signals")
+        raise ModelError(
+            "nothing was recorded, so there is nothing to draw: give recorded_signals="
+            "['block.port'] to the run, or the system an output"
+        )
     signals = curves_of(results)
     entries = {curve.label: [curve] for curves in signals.values() for curve in curves}
     known = signals | {label: curve for label, curve in entries.items() if label not in signals}
