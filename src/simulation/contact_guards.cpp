@@ -153,6 +153,7 @@ bool ContactGuards::place(SurfaceContact& contact) {
   const bool placed = transition_->writes().of(group_of(contact.guard())) > 0 &&
                       contacts_.settle_on_surface(contact, t, x);
   present_->outcome.restart = present_->outcome.restart || placed;
+  present_->placed = present_->placed || placed;
   contacts_.choose_look_ahead(contact, t, x, present_->longest);
   return placed;
 }

@@ -54,6 +54,7 @@ Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool
     if (armed && !std::exchange(present.contact_changed, false)) break;
     parts_.journal.at_jump(parts_.jump);
     parts_.sides.arm(at_start);
+    if (std::exchange(present.placed, false)) rows_.again(parts_.jump);
     armed = true;
     if (present.firings.empty() && present.actions.empty()) break;
   }

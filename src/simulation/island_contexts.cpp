@@ -85,8 +85,8 @@ void IslandContexts::require_fits(const Context& whole) const {
       "the context ended a run with ",
       all->islands.empty() ? std::string("one common step") : text(all->islands.size(), " islands"),
       ", this run has ", layouts_.size(),
-      " islands; continue it with the options of that run, or take "
-      "context.with_time(context.time()), which begins anew from its values"));
+      " islands; continue it with the options of that run, or begin anew from its values: set its "
+      "time to the same value by with_time"));
 }
 
 Context IslandContexts::whole_of(const Context& begin, double t,

@@ -26,8 +26,7 @@ void require_common_step(const Context& context) {
   if (context.continuation() == nullptr || context.continuation()->islands.empty()) return;
   throw ModelError(
       "the context ended a run whose islands stepped apart; continue it with the option "
-      "islands = true, or take context.with_time(context.time()), which begins anew from its "
-      "values");
+      "islands = true, or begin anew from its values: set its time to the same value by with_time");
 }
 
 /// A context that continues a run has states that the run led to.

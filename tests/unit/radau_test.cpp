@@ -233,6 +233,19 @@ TEST_CASE("two tries of a step tell what it has inherited from what is its own",
   CHECK(inherited_estimate(-1e6, -1e6, 0.125, 4.0) == -4.0);
 }
 
+TEST_CASE("an estimate is smaller than the error allowed only where it shows its order",
+          "[radau]") {
+  using radau::shown_order;
+  // Of order 8, at half the step: as h^8, as h^6, as h^4, behind a kink as h^2, behind a jump as h.
+  CHECK(shown_order(256.0, 1.0, 0.5, 8.0) == 1.0);
+  CHECK_THAT(shown_order(-64.0, 1.0, 0.5, 8.0), WithinRel(0.5, 1e-12));
+  CHECK(shown_order(16.0, 1.0, 0.5, 8.0) == 0.0);
+  CHECK(shown_order(4.0, -1.0, 0.5, 8.0) == 0.0);
+  CHECK(shown_order(2.0, 1.0, 0.5, 8.0) == 0.0);
+  CHECK(shown_order(0.0, 1.0, 0.5, 8.0) == 0.0);  // it grows
+  CHECK(shown_order(0.0, 0.0, 0.5, 8.0) == 1.0);  // there is no error
+}
+
 TEST_CASE("looks inside steps change no bit of them", "[radau]") {
   const Leaf leaf = oscillator();
   const auto end = [&](std::vector<double> rows) {

@@ -27,6 +27,12 @@ class InstantRows {
     if (recorder_ != nullptr) recorder_->record(present_->t, jump, machine_->x.data());
   }
 
+  /// The same row, where a block was put at rest on its surface since.
+  void again(int jump) {
+    if (recorder_ != nullptr && recorder_->has_row(present_->t, jump))
+      recorder_->replace(present_->t, jump, machine_->x.data());
+  }
+
  private:
   void follow_flips();
   void put_back_what_does_not_follow();

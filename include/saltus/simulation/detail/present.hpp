@@ -77,7 +77,7 @@ class Present {
     firings.clear(), actions.clear();
     for (const std::size_t k : noted_) now_[k] = {}, is_noted_[k] = 0;
     noted_.clear(), fired_in_pass_.clear();
-    outcome = {}, contact_changed = false;
+    outcome = {}, contact_changed = placed = false;
   }
   /// A pass begins: no guard has fired in it yet.
   void open_pass() {
@@ -118,6 +118,7 @@ class Present {
   bool changes = false;          ///< whether the pass to come changes something; else it only logs
   bool contact_changed = false;  ///< a contact is carried now, or has a wider error: it has to
                                  ///< be armed, though nothing is committed
+  bool placed = false;           ///< a block was put at rest on its surface since the last commit
   std::vector<Firing> firings = {};  ///< for the pass to come
   std::vector<Action> actions = {};  ///< likewise
   std::vector<double> g;             ///< the guards at (t, x)
