@@ -36,7 +36,7 @@ TEST_CASE("5.1 the last row where a ball comes to rest has no velocity", "[laws]
   const Leaf leaf = ball(drag, e);
   const auto results =
       simulate(leaf, leaf.create_context(), {0.0, 20.0},
-               {.recorded_signals = {{"state", leaf.output(0)}}, .ode_solver_method = method});
+               {.ode_solver_method = method, .recorded_signals = {{"state", leaf.output(0)}}});
   REQUIRE(count(results.events, EventKind::zeno_enter) == 1);
   const auto rests = [&](std::size_t i) { return results.events[i].kind == EventKind::zeno_enter; };
   std::size_t event = 0;
