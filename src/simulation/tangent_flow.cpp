@@ -56,7 +56,7 @@ void TangentFlow::make() {
   functions_ = machine_->functions(), made_ = true;
   const Plan& plan = machine_->plan();
   FlowGraph flow = flow_graph(plan);
-  rates_.reset(), guards_.reset(), chain_.reset(), switches_.reset();
+  rates_.reset(), guards_.reset(), chain_.reset(), switches_.reset(), switched_.reset();
   row_of_slot_.assign(static_cast<std::size_t>(plan.guard_slots), -1);
   if (!flow.obstacle.empty()) return chain(), void();
   std::vector<tape::Node> rows(flow.rates.begin(), flow.rates.end());
@@ -144,13 +144,47 @@ bool TangentFlow::rests_at_switch(double t, const double* x, const Eigen::Vector
   return false;
 }
 
-void TangentFlow::sides_of_switches(double t, const double* x, std::vector<char>& sides) {
-  sides.clear();
+void TangentFlow::branches_at(double t, const double* x, std::vector<double>& branches) {
+  branches.clear();
   if (!switches_) return;
+  const double* numbers = switches_at(t, x);
+  for (Index k = 0; k < switches_->size(); k += tape::numbers_of_switch) {
+    const double branch = numbers[k + tape::numbers_of_switch - 1];
+    branches.push_back(std::isnan(branch) ? 0.0 : branch);
+  }
+}
+
+const double* TangentFlow::switches_at(double t, const double* x) {
   switch_values_.resize(switches_->size());
   variables_.at(t, x, [&](const At& at) { switches_->evaluate(at, switch_values_.data()); });
-  for (Index k = 0; k < switch_values_.size(); k += tape::numbers_of_switch)
-    sides.push_back(switch_values_[k] > switch_values_[k + 1] ? 1 : 0);
+  return switch_values_.data();
+}
+
+/// Makes what is needed where a branch changes, which most runs never ask for.
+TangentFlow::Switched& TangentFlow::switched() {
+  if (switched_) return *switched_;
+  const Plan& plan = machine_->plan();
+  FlowGraph flow = flow_graph(plan);
+  const std::vector<tape::Node> rates(flow.rates.begin(), flow.rates.end());
+  const std::vector<tape::Node> numbers = tape::switches_of(flow.graph, rates);
+  std::vector<tape::Node> residuals;
+  for (std::size_t k = 0; k < numbers.size(); k += tape::numbers_of_switch)
+    residuals.push_back(flow.graph.binary(tape::Op::sub, numbers[k], numbers[k + 1]));
+  tape::Tape values(flow.graph, rates);
+  return switched_.emplace(Switched{std::move(values), partials(flow, plan, residuals, true)});
+}
+
+Eigen::VectorXd TangentFlow::rates_of_branch(double t, const double* x) {
+  Eigen::VectorXd rates(machine_->plan().nx);
+  variables_.at(t, x, [&](const At& at) { switched().rates.evaluate(at, rates.data()); });
+  for (Index i = 0; i < rates.size(); ++i)
+    if (machine_->resting().rests(i)) rates[i] = 0.0;
+  return rates;
+}
+
+GuardTangent TangentFlow::of_switch(double t, const double* x, Index number,
+                                    const TangentColumns& columns) {
+  return exact_row(switched().residuals, t, x, number, columns);
 }
 
 bool TangentFlow::bends(double t, const double* x, const TangentDirection& along) {
@@ -170,7 +204,7 @@ GuardTangent TangentFlow::guard(double t, const double* x, Index slot,
                                 const TangentColumns& columns) {
   if (functions_ != machine_->functions()) make();
   const Index row = nth(row_of_slot_, slot);
-  return row >= 0 ? exact_guard(t, x, row, columns) : called_guard(t, x, slot, columns);
+  return row >= 0 ? exact_row(*guards_, t, x, row, columns) : called_guard(t, x, slot, columns);
 }
 
 /// The derivative by the time, where it is not declared, is a difference of the guard and of all that
@@ -196,14 +230,14 @@ void TangentFlow::difference_by_time(double t, const double* x, Index slot, doub
   probe_->derivative(x, {.t = 1.0}, 1, read, &by_time);
 }
 
-GuardTangent TangentFlow::exact_guard(double t, const double* x, Index row,
-                                      const TangentColumns& columns) {
+GuardTangent TangentFlow::exact_row(Partials& all, double t, const double* x, Index row,
+                                    const TangentColumns& columns) {
   GuardTangent found{Eigen::VectorXd::Zero(machine_->plan().nx), 0.0,
                      Eigen::RowVectorXd::Zero(columns.size())};
-  evaluate(*guards_, t, x);
-  for (std::size_t e = 0; e < guards_->entries.size(); ++e) {
-    const auto [of, kind, index] = guards_->entries[e];
-    const double value = guards_->values[static_cast<Index>(e)];
+  evaluate(all, t, x);
+  for (std::size_t e = 0; e < all.entries.size(); ++e) {
+    const auto [of, kind, index] = all.entries[e];
+    const double value = all.values[static_cast<Index>(e)];
     if (of != row) continue;
     if (kind == Variable::x) {
       found.by_state[index] += value;

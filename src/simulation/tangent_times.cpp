@@ -24,6 +24,27 @@ bool moves_apart(double a, double b) {
   return std::abs(a - b) > same_time * std::max(std::abs(a), std::abs(b));
 }
 
+/// With the speed s and the curvature c against it, the function goes beyond zero by s^2 / (2 |c|). The
+/// error of its value follows from the tolerances of the states that it reads.
+bool grazes(const GuardTangent& of, double speed, const ZeroPlace& at,
+            const std::function<Eigen::VectorXd(double, const double*)>& flow,
+            const std::function<GuardTangent(double, const double*)>& tangent) {
+  const Eigen::VectorXd& f = at.flow;
+  const double terms = of.by_state.cwiseAbs().dot(f.cwiseAbs()) + std::abs(of.by_time);
+  if (!(std::abs(speed) > sum_rounding * terms)) return true;
+  double error = 0.0;
+  for (Index i = 0; i < f.size(); ++i)
+    error +=
+        std::abs(of.by_state[i]) * (at.options.atol[i] + at.options.rtol[i] * std::abs(at.x[i]));
+  const double ahead = std::sqrt(2.0 * error / terms / std::max(terms, 1.0));
+  if (!(ahead > 0.0) || !std::isfinite(ahead)) return false;
+  const Eigen::VectorXd later = VectorView(at.x, f.size()) + ahead * f;
+  const GuardTangent there = tangent(at.t + ahead, later.data());
+  const double curvature =
+      (there.by_state.dot(flow(at.t + ahead, later.data())) + there.by_time - speed) / ahead;
+  return curvature * speed < 0.0 && speed * speed <= 2.0 * std::abs(curvature) * error;
+}
+
 MovedTime TangentTimes::of(const Firing& firing, bool jumped, const TangentColumns& until,
                            double t) {
   const Guard& guard = (*guards_)[firing.guard()];
@@ -59,33 +80,17 @@ MovedTime TangentTimes::of_crossing(Index slot, const std::string& event, double
   if (!guard.columns.allFinite() || !std::isfinite(speed))
     moved.doubt = "the derivative of the guard is not finite";
   const bool flat = guard.by_state.isZero(0.0) && guard.by_time == 0.0;
-  const bool at_rest = grazes(guard, speed, slot, t, x, until);
+  const auto flow = [&](double at, const double* state) { return probe_->flow(at, state); };
+  const auto tangent = [&](double at, const double* state) {
+    return flow_->guard(at, state, slot, until);
+  };
+  const bool at_rest = grazes(guard, speed, {t, x, probe_->flow(t, x), *options_}, flow, tangent);
   for (Index k = 0; k < until.size(); ++k) {
     // A guard that does not depend on the parameter has a time all the same.
     const bool independent = flat ? !until.matters(k) : guard.columns[k] == 0.0;
     if (at_rest) moved.by[k] = independent ? until.t[k] : no_derivative;
   }
   return moved;
-}
-
-/// Whether a guard reaches zero so slowly that it would turn back within the error of its value. With
-/// the speed s and the curvature c against it, it goes beyond zero by s^2 / (2 |c|). The error of its
-/// value follows from the tolerances of the states that it reads.
-bool TangentTimes::grazes(const GuardTangent& guard, double speed, Index slot, double t,
-                          const double* x, const TangentColumns& until) {
-  const Eigen::VectorXd f = probe_->flow(t, x);
-  const double terms = guard.by_state.cwiseAbs().dot(f.cwiseAbs()) + std::abs(guard.by_time);
-  if (!(std::abs(speed) > sum_rounding * terms)) return true;
-  double error = 0.0;
-  for (Index i = 0; i < f.size(); ++i)
-    error += std::abs(guard.by_state[i]) * (options_->atol[i] + options_->rtol[i] * std::abs(x[i]));
-  const double ahead = std::sqrt(2.0 * error / terms / std::max(terms, 1.0));
-  if (!(ahead > 0.0) || !std::isfinite(ahead)) return false;
-  const Eigen::VectorXd later = VectorView(x, f.size()) + ahead * f;
-  const GuardTangent there = flow_->guard(t + ahead, later.data(), slot, until);
-  const double curvature =
-      (there.by_state.dot(probe_->flow(t + ahead, later.data())) + there.by_time - speed) / ahead;
-  return curvature * speed < 0.0 && speed * speed <= 2.0 * std::abs(curvature) * error;
 }
 
 }  // namespace saltus

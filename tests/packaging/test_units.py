@@ -103,6 +103,7 @@ ELSEWHERE = {
     "simulation/detail/thresholds": None,
     "simulation/detail/waiting_tangents": "laws/waiting_sensitivities_test.cpp",
     "simulation/detail/waiting_queues": "semantics/queue_schedule_test.cpp",
+    "simulation/detail/time_jumps": "laws/moved_jumps_test.cpp",
     "simulation/detail/trajectory_reader": "unit/dense_output_test.cpp",
     "solver/detail/column_steps": "laws/stage_tangents_test.cpp",
     "solver/detail/cvode": None,

@@ -8,6 +8,7 @@
 #include "saltus/plan/detail/flow_graph.hpp"
 #include "saltus/plan/detail/flow_variables.hpp"
 #include "saltus/simulation/detail/flow_chain.hpp"
+#include "saltus/tape/switches.hpp"
 #include "saltus/tape/tape.hpp"
 
 namespace saltus {
@@ -64,9 +65,17 @@ class TangentFlow {
     if (functions_ != machine_->functions()) make();
     return functions_;
   }
+  /// Whether the flow is exact and has switches (see tape/switches.hpp).
   bool has_switches() const noexcept { return switches_.has_value(); }
-  /// Writes 1 for each switch of the flow whose first number is the larger one at (t, x), else 0.
-  void sides_of_switches(double t, const double* x, std::vector<char>& sides);
+  /// Their numbers at (t, x), which last until the next call.
+  const double* switches_at(double t, const double* x);
+  Index switch_count() const { return switches_ ? switches_->size() / tape::numbers_of_switch : 0; }
+  /// Writes the branch of each switch at (t, x).
+  void branches_at(double t, const double* x, std::vector<double>& branches);
+  /// The flow at (t, x), by the expressions of which the branches are.
+  Eigen::VectorXd rates_of_branch(double t, const double* x);
+  /// The derivatives of a - b of a switch, which is zero at its limit.
+  GuardTangent of_switch(double t, const double* x, Index number, const TangentColumns& columns);
   /// Whether the flow is known not to depend on the time itself.
   bool autonomous() const;
   /// Why a derivative of the flow was NaN since `forget_obstacle`; empty if no function says.
@@ -85,7 +94,14 @@ class TangentFlow {
     Eigen::VectorXd values;
   };
 
+  /// The flow, and a - b of each switch with its derivatives.
+  struct Switched {
+    tape::Tape rates;
+    Partials residuals;
+  };
+
   void make();
+  Switched& switched();
   Partials partials(FlowGraph& flow, const Plan& plan, const std::vector<tape::Node>& rows,
                     bool by_time) const;
   void evaluate(Partials& of, double t, const double* x);
@@ -94,7 +110,8 @@ class TangentFlow {
   GuardTangent called_guard(double t, const double* x, Index slot, const TangentColumns& columns);
   void difference_by_time(double t, const double* x, Index slot, double& by_time);
   FlowChain& chain();
-  GuardTangent exact_guard(double t, const double* x, Index row, const TangentColumns& columns);
+  GuardTangent exact_row(Partials& all, double t, const double* x, Index row,
+                         const TangentColumns& columns);
 
   const Machine* machine_;
   TangentProbe* probe_;
@@ -107,7 +124,8 @@ class TangentFlow {
   std::optional<Partials> rates_, guards_;
   std::optional<tape::Tape> switches_;  // of the rates, if they have any
   Eigen::VectorXd switch_values_;
-  std::vector<Index> row_of_slot_;  // of `guards_`; -1: the guard is called
+  std::optional<Switched> switched_;  // made where a branch changes
+  std::vector<Index> row_of_slot_;    // of `guards_`; -1: the guard is called
 };
 
 }  // namespace saltus

@@ -93,6 +93,10 @@ class Tangents {
   void take_causes(const Present& present, const std::vector<int>& due,
                    const std::vector<DueNow>& waiting, const Eigen::VectorXd& flow);
 
+  AtJump at_jump(double t, const double* x, const TangentColumns& at);
+  void lose_beside_jump(const TangentColumns& before, const std::string& event,
+                        const std::string& reason);
+
   const Machine* machine_;
   const GuardSet* guards_;
   TangentStart start_;
@@ -101,6 +105,7 @@ class Tangents {
   TangentTimes times_;
   TangentColumns columns_;  // of the state between instants, then of the instant
   TangentGaps gaps_;
+  FlowSwitches switches_;
   StepTangents steps_;
   InstantTime time_;
   PassTangents pass_;
