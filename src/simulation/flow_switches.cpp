@@ -70,15 +70,10 @@ bool FlowSwitches::is_jump(const Eigen::VectorXd& f_minus, const Eigen::VectorXd
   return jumps;
 }
 
-/// Whether the residual of a switch is zero within its rounding. A residual that jumps itself, as that
-/// of floor(t) > 2.5, is not.
 bool FlowSwitches::is_at_limit(Index number, double t, const double* x,
                                const GuardTangent& residual) {
   const double* numbers = flow_->switches_at(t, x) + number * tape::numbers_of_switch;
-  double terms = numbers[2] + std::abs(residual.by_time * t);
-  for (Index i = 0; i < residual.by_state.size(); ++i)
-    terms += std::abs(residual.by_state[i] * x[i]);
-  return std::abs(numbers[0] - numbers[1]) <= residual_rounding * terms;
+  return saltus::is_at_limit(numbers, residual, t, x);
 }
 
 /// Whether the flow takes the branch across its limit, on both sides of it, with a speed that is clear.

@@ -57,11 +57,12 @@ void TangentFlow::make() {
   const Plan& plan = machine_->plan();
   FlowGraph flow = flow_graph(plan);
   rates_.reset(), guards_.reset(), chain_.reset(), switches_.reset(), switched_.reset();
+  guard_switches_.clear();
   row_of_slot_.assign(static_cast<std::size_t>(plan.guard_slots), -1);
   if (!flow.obstacle.empty()) return chain(), void();
   std::vector<tape::Node> rows(flow.rates.begin(), flow.rates.end());
   reads_time_ = read_time(flow.graph, rows);
-  rates_ = partials(flow, plan, rows, false);
+  rates_ = partials(flow.graph, rows, false);
   const std::vector<tape::Node> switches = tape::switches_of(flow.graph, rows);
   if (!switches.empty()) switches_.emplace(flow.graph, switches);
   rows.clear();
@@ -70,12 +71,12 @@ void TangentFlow::make() {
     row_of_slot_[slot] = static_cast<Index>(rows.size());
     rows.push_back(*flow.guards[slot]);
   }
-  guards_ = partials(flow, plan, rows, true);
+  guards_ = partials(flow.graph, rows, true);
 }
 
-TangentFlow::Partials TangentFlow::partials(FlowGraph& flow, const Plan& plan,
-                                            const std::vector<tape::Node>& rows,
+TangentFlow::Partials TangentFlow::partials(tape::Graph& graph, const std::vector<tape::Node>& rows,
                                             bool by_time) const {
+  const Plan& plan = machine_->plan();
   std::vector<tape::Node> variables;
   std::vector<std::pair<Variable, Index>> names;
   const auto add_one = [&](Variable kind, Index i, tape::Node node) {
@@ -84,7 +85,6 @@ TangentFlow::Partials TangentFlow::partials(FlowGraph& flow, const Plan& plan,
   const auto add = [&](Variable kind, Index size, const auto& node_of) {
     for (Index i = 0; i < size; ++i) add_one(kind, i, node_of(i));
   };
-  tape::Graph& graph = flow.graph;
   add(Variable::x, plan.nx, [&](Index i) { return graph.continuous_state(i); });
   add(Variable::z, plan.nz, [&](Index i) { return graph.input(0, i); });
   add(Variable::y, plan.ny, [&](Index i) { return graph.discrete_state(i); });
@@ -142,49 +142,6 @@ bool TangentFlow::rests_at_switch(double t, const double* x, const Eigen::Vector
   for (Index k = 0; k < count; k += tape::numbers_of_switch)
     if (has_switch_at_limit(&here[k], 1) && has_switch_at_limit(&there[k], 1)) return true;
   return false;
-}
-
-void TangentFlow::branches_at(double t, const double* x, std::vector<double>& branches) {
-  branches.clear();
-  if (!switches_) return;
-  const double* numbers = switches_at(t, x);
-  for (Index k = 0; k < switches_->size(); k += tape::numbers_of_switch) {
-    const double branch = numbers[k + tape::numbers_of_switch - 1];
-    branches.push_back(std::isnan(branch) ? 0.0 : branch);
-  }
-}
-
-const double* TangentFlow::switches_at(double t, const double* x) {
-  switch_values_.resize(switches_->size());
-  variables_.at(t, x, [&](const At& at) { switches_->evaluate(at, switch_values_.data()); });
-  return switch_values_.data();
-}
-
-/// Makes what is needed where a branch changes, which most runs never ask for.
-TangentFlow::Switched& TangentFlow::switched() {
-  if (switched_) return *switched_;
-  const Plan& plan = machine_->plan();
-  FlowGraph flow = flow_graph(plan);
-  const std::vector<tape::Node> rates(flow.rates.begin(), flow.rates.end());
-  const std::vector<tape::Node> numbers = tape::switches_of(flow.graph, rates);
-  std::vector<tape::Node> residuals;
-  for (std::size_t k = 0; k < numbers.size(); k += tape::numbers_of_switch)
-    residuals.push_back(flow.graph.binary(tape::Op::sub, numbers[k], numbers[k + 1]));
-  tape::Tape values(flow.graph, rates);
-  return switched_.emplace(Switched{std::move(values), partials(flow, plan, residuals, true)});
-}
-
-Eigen::VectorXd TangentFlow::rates_of_branch(double t, const double* x) {
-  Eigen::VectorXd rates(machine_->plan().nx);
-  variables_.at(t, x, [&](const At& at) { switched().rates.evaluate(at, rates.data()); });
-  for (Index i = 0; i < rates.size(); ++i)
-    if (machine_->resting().rests(i)) rates[i] = 0.0;
-  return rates;
-}
-
-GuardTangent TangentFlow::of_switch(double t, const double* x, Index number,
-                                    const TangentColumns& columns) {
-  return exact_row(switched().residuals, t, x, number, columns);
 }
 
 bool TangentFlow::bends(double t, const double* x, const TangentDirection& along) {

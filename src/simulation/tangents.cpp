@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "saltus/simulation/detail/held_tangents.hpp"
-
 namespace saltus {
 
 Tangents::Tangents(const Machine& machine, const GuardSet& guards, const SimulatorOptions& options,
@@ -20,6 +18,7 @@ Tangents::Tangents(const Machine& machine, const GuardSet& guards, const Simulat
       switches_(machine, options, flow_),
       steps_(machine, flow_, probe_, gaps_, switches_),
       time_(columns_, gaps_),
+      held_(machine, flow_, probe_),
       pass_(machine, probe_, columns_),
       waiting_(machine, columns_, pass_, gaps_),
       at_zero_(machine, guards, flow_, probe_, columns_, gaps_),
@@ -36,7 +35,7 @@ void Tangents::begin(const Context& start) {
   waiting_.begin(), at_zero_.begin(), gaps_.begin(), events_.begin(), one_sided_.begin();
   t_ = start.time(), phase_ = Phase::between;
   probe_.begin(), probe_.note(machine_->x.data(), 0.0);
-  begin_signals(probe_, *machine_, start.with_computed(machine_->plan().computed), columns_);
+  held_.begin(start.with_computed(machine_->plan().computed), columns_);
   evaluated();
   for (Index k = 0; k < size(); ++k)
     if (const std::string& why = nth(begun.obstacles, k); !why.empty()) gaps_.lose(t_, k, "", why);

@@ -1,5 +1,4 @@
 // Tangents: across an instant.
-#include "saltus/simulation/detail/held_tangents.hpp"
 #include "saltus/simulation/detail/tangents.hpp"
 
 namespace saltus {
@@ -57,8 +56,8 @@ void Tangents::commit() {
 
 void Tangents::evaluated() {
   if (machine_->y.size() == 0) return;
-  follow_signals(probe_, *machine_, t_, columns_);
-  gaps_.lose_not_finite(t_, probe_.obstacle());
+  held_.follow(t_, columns_);
+  gaps_.lose_not_finite(t_, held_.obstacle());
 }
 
 void Tangents::close() {

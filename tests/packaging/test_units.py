@@ -49,6 +49,7 @@ ELSEWHERE = {
     "simulation/detail/flow_chain": "unit/declared_derivatives_test.cpp",
     "simulation/detail/flow_jumps": "laws/sensitivities_test.cpp",
     "simulation/detail/flow_probe": "unit/departure_test.cpp",
+    "simulation/detail/flow_switches": "laws/moved_jumps_test.cpp",
     "simulation/detail/flow_terms": "laws/stage_tangents_test.cpp",
     "simulation/detail/given_inputs": "unit/linearize_test.cpp",
     "simulation/detail/guard_sides": "unit/instant_test.cpp",

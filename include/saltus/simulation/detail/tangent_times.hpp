@@ -54,6 +54,11 @@ class TangentTimes {
                         const TangentColumns& until);
 
  private:
+  MovedTime of_jump(Index slot, const std::string& event, double t, const TangentColumns& until);
+  bool changes_sign(Index slot, double t, const Eigen::VectorXd& flow, double away);
+  MovedTime of_residual(const GuardTangent& residual, const std::string& event,
+                        const Eigen::VectorXd& flow, const TangentColumns& until) const;
+
   const Machine* machine_;
   const GuardSet* guards_;
   const SimulatorOptions* options_;

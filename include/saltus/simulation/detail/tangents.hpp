@@ -7,6 +7,7 @@
 
 #include "saltus/simulation/detail/dense_tangents.hpp"
 #include "saltus/simulation/detail/guards_at_zero.hpp"
+#include "saltus/simulation/detail/held_tangents.hpp"
 #include "saltus/simulation/detail/instant_time.hpp"
 #include "saltus/simulation/detail/pass_tangents.hpp"
 #include "saltus/simulation/detail/resting_kinks.hpp"
@@ -108,6 +109,7 @@ class Tangents {
   FlowSwitches switches_;
   StepTangents steps_;
   InstantTime time_;
+  HeldTangents held_;
   PassTangents pass_;
   WaitingTangents waiting_;
   GuardsAtZero at_zero_;
