@@ -1,4 +1,4 @@
-// TimeJumps: halves a step where the flow is not smooth, down to neighbouring times.
+// TimeJumps: the jumps of a step, and whether they move.
 #include "saltus/simulation/detail/time_jumps.hpp"
 
 #include <algorithm>
@@ -16,46 +16,45 @@ TimeJumps::Look TimeJumps::look(double t, const StateAt& state) {
   return now;
 }
 
-/// The largest second difference, in parts of the size of its derivative.
-double TimeJumps::bend(const Look& a, const Look& b, const Look& c) const {
+/// The largest fourth difference, in parts of the size of its derivative.
+double TimeJumps::bend(const Looks& at) const {
   double most = 0.0;
   for (Index i = 0; i < rates_.size(); ++i) {
-    const double miss = std::abs(a.f[i] - 2.0 * b.f[i] + c.f[i]);
+    const double miss =
+        std::abs(at[0].f[i] - 4.0 * at[1].f[i] + 6.0 * at[2].f[i] - 4.0 * at[3].f[i] + at[4].f[i]);
     if (miss > 0.0 && rates_[i] > 0.0) most = std::max(most, miss / rates_[i]);
   }
   return most;
 }
 
-void TimeJumps::search(Look from, Look to, const StateAt& state, std::vector<Jump>& found) {
-  Look a = from, c = to;
-  const auto between = [](const Look& left, const Look& right) {
-    return left.t + 0.5 * (right.t - left.t);
-  };
-  const auto is_between = [&](const Look& left, const Look& right) {
-    return left.t < between(left, right) && between(left, right) < right.t;
-  };
-  if (!is_between(a, c)) return;
-  Look b = look(between(a, c), state);
-  while (bend(a, b, c) > thresholds::least_bend) {
-    if (!is_between(a, b) || !is_between(b, c)) {
-      const bool first = (b.f - a.f).cwiseAbs().sum() > (c.f - b.f).cwiseAbs().sum();
-      const Look &minus = first ? a : b, &plus = first ? b : c;
-      found.push_back({minus.t, plus.t, minus.x, plus.x, plus.f - minus.f});
-      if (found.size() >= thresholds::most_called_jumps) return;
-      search(from, minus, state, found);
-      return search(plus, to, state, found);
-    }
-    Look left = look(between(a, b), state), right = look(between(b, c), state);
-    if (bend(a, left, b) > bend(b, right, c))
-      c = std::move(b), b = std::move(left);
-    else
-      a = std::move(b), b = std::move(right);
+/// Halves the looks where the flow is not smooth, down to neighbouring times.
+void TimeJumps::search(const Looks& at, const StateAt& state, std::vector<Jump>& found) {
+  if (!(bend(at) > thresholds::least_bend) || found.size() >= thresholds::most_called_jumps) return;
+  const auto size = [&](std::size_t k) { return (at[k + 1].f - at[k].f).cwiseAbs().sum(); };
+  bool divides = true;
+  std::size_t largest = 0;
+  for (std::size_t k = 0; k + 1 < at.size(); ++k) {
+    const double middle = at[k].t + 0.5 * (at[k + 1].t - at[k].t);
+    divides = divides && at[k].t < middle && middle < at[k + 1].t;
+    if (size(k) > size(largest)) largest = k;
   }
+  if (!divides) {
+    const Look &minus = at[largest], &plus = at[largest + 1];
+    found.push_back({minus.t, plus.t, minus.x, plus.x, plus.f - minus.f});
+    return;
+  }
+  for (const std::size_t k : {0, 2})
+    search({at[k], between(at[k], at[k + 1], state), at[k + 1],
+            between(at[k + 1], at[k + 2], state), at[k + 2]},
+           state, found);
 }
 
 std::vector<TimeJumps::Jump> TimeJumps::within(double from, double to, const StateAt& state) {
   std::vector<Jump> found;
-  search(look(from, state), look(to, state), state, found);
+  const Look first = look(from, state), last = look(to, state),
+             middle = between(first, last, state);
+  search({first, between(first, middle, state), middle, between(middle, last, state), last}, state,
+         found);
   return found;
 }
 

@@ -1,5 +1,7 @@
 """Jumps of the flow without an event: their times move, and the derivatives have the jump term."""
 
+import math
+
 import numpy as np
 import pytest
 import saltus
@@ -88,6 +90,40 @@ def test_a_called_function_that_jumps_has_a_gap(name):
         else:  # as w of a step at 5 p, which moves nothing
             np.testing.assert_allclose(found[:, k], expected[:, k], rtol=1e-5, atol=1e-5)
     assert lost
+
+
+@pytest.mark.parametrize("method", JUMPING)
+@pytest.mark.parametrize("size", [1.0, 1e-2, 1e-3])
+def test_a_small_jump_of_a_called_function_has_a_gap(size, method):
+    """Beside a smooth part that varies by 1: p moves the jump only, q nothing but the smooth part."""
+    system = saltus.system_of(
+        lambda t, x, p, q: [q * np.sin(3 * t) + (size if t > 5 * p else 0.0)], [0.0],
+        parameters={"p": 0.2, "q": 1.0})  # fmt: skip
+    results = saltus.simulate(
+        system, (0.0, 3.0), sensitivity=["p", "q"], python="called", ode_solver_method=method
+    )
+    assert {gap.parameter for gap in results.sensitivity_gaps} == {"p"}
+    found = results.sensitivities.continuous_state[0]
+    assert np.isnan(found[0])
+    assert found[1] == pytest.approx((1 - np.cos(9.0)) / 3, rel=1e-5)
+
+
+@pytest.mark.parametrize("method", JUMPING)
+def test_a_traced_block_beside_a_called_one_has_a_gap(method):
+    b = saltus.DiagramBuilder()
+    s, k, c, x, e = b.add(
+        Sine(frequency=1.3, name="s"), FunctionBlock(lambda u: np.sign(u - 0.3), name="k"),
+        FunctionBlock(lambda u: 0.0 if float(u) > 9.0 else math.sin(float(u)), name="c"), Integrator(0.0, name="x"),
+        Adder("++", name="e"))  # fmt: skip
+    for source, target in ((s, k.input()), (x, c.input()), (k, e.input(0)), (c, e.input(1)),
+                           (e, x.input())):  # fmt: skip
+        b.connect(source.output(), target)
+    results = saltus.simulate(
+        b.build(), (0.0, 3.0), sensitivity=["s.phase", "x.x[0]"], ode_solver_method=method
+    )
+    assert {gap.parameter for gap in results.sensitivity_gaps} == {"s.phase"}
+    found = results.sensitivities.continuous_state[0]
+    assert np.isnan(found[0]) and np.isfinite(found[1])
 
 
 @pytest.mark.parametrize("python", ["traced", "called"])

@@ -212,8 +212,8 @@ inline constexpr double roundings_beside_jump = 16.0;
 
 // --- jumps of called functions: time_jumps.cpp (tests/laws/moved_jumps_test.cpp)
 
-/// [of the largest rate so far] A smaller second difference of the flow is smooth.
-inline constexpr double least_bend = 1e-3;
+/// [of the largest rate so far] A smaller fourth difference of the flow is smooth, or a rounding.
+inline constexpr double least_bend = 1e-4;
 inline constexpr std::size_t most_called_jumps = 20;  ///< in one step
 /// [of the size of a value] The shift after which a jump that moves is elsewhere. It is far above the
 /// rounding of a time, and far below the distance of two jumps.

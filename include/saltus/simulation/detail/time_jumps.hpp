@@ -1,6 +1,7 @@
 // TimeJumps: jumps of called functions along a step, and whether a parameter moves them.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -8,7 +9,7 @@
 
 namespace saltus {
 
-/// Looks at the flow along a step by its second differences. Those of a smooth flow fall by four where
+/// Looks at the flow along a step by its fourth differences. Those of a smooth flow fall by sixteen where
 /// the distance is halved, and those at a jump stay. A jump moves with a parameter if it is no more
 /// between two neighbouring times after a small shift of that parameter.
 class TimeJumps {
@@ -35,9 +36,14 @@ class TimeJumps {
     double t;
     Eigen::VectorXd x, f;
   };
+  /// Five looks at equal distances.
+  using Looks = std::array<Look, 5>;
   Look look(double t, const StateAt& state);
-  double bend(const Look& a, const Look& b, const Look& c) const;
-  void search(Look from, Look to, const StateAt& state, std::vector<Jump>& found);
+  Look between(const Look& a, const Look& b, const StateAt& state) {
+    return look(a.t + 0.5 * (b.t - a.t), state);
+  }
+  double bend(const Looks& at) const;
+  void search(const Looks& at, const StateAt& state, std::vector<Jump>& found);
 
   TangentProbe* probe_;
   Eigen::VectorXd rates_;  // the largest of each derivative so far
