@@ -107,4 +107,23 @@ class Pass {
 
 FlowGraph flow_graph(const Plan& plan) { return Pass(plan).run(); }
 
+SignalGraph signal_graph(const Plan& plan) {
+  List<int> first(plan.nodes.size(), Expressions::variable);
+  Expressions values(plan, first);
+  SignalGraph made;
+  for (const int i : plan.needs.instants) {
+    const Node& node = plan.node(i);
+    if (node.relation || node.boolean) continue;
+    if (!plan.output_of(node).formula) {
+      made.whole = false;
+      continue;
+    }
+    values.compute(i);
+    for (const tape::Node& value : values.of_node(i)) made.values.push_back(value);
+    for (Index k = 0; k < node.place.size; ++k) made.places.push_back(node.place.offset + k);
+  }
+  made.graph = std::move(values.graph());
+  return made;
+}
+
 }  // namespace saltus

@@ -44,17 +44,17 @@ void FlowTerms::choose(const TangentColumns& columns) {
 void FlowTerms::watch(bool continues) {
   crossed_ = false;
   if (continues)
-    sides_ = at_end_;
+    branches_ = at_end_;
   else
-    sides_.clear();
+    branches_.clear();
 }
 
 void FlowTerms::go_to(double t, const double* x) {
   values_ = flow_->rates_at(t, x);
   if (!flow_->has_switches()) return;
-  flow_->sides_of_switches(t, x, now_);
-  if (sides_.empty()) sides_ = now_;
-  crossed_ = crossed_ || sides_ != now_;
+  flow_->branches_at(t, x, now_);
+  if (branches_.empty()) branches_ = now_;
+  crossed_ = crossed_ || branches_ != now_;
 }
 
 void FlowTerms::apply(const double* s, double* ds) const {

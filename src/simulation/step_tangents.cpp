@@ -16,7 +16,7 @@ constexpr double least_step = 1e6;
 
 void StepTangents::begin(Variation::Tolerances tolerances, Eigen::VectorXd state_atol) {
   stages_.begin(tolerances, std::move(state_atol)), variation_.emplace(std::move(tolerances));
-  jumps_.begin(machine_->plan().nx);
+  jumps_.begin(machine_->plan().nx), called_jumps_.begin(machine_->plan().nx);
 }
 
 void StepTangents::advance(double from, double to, Integration& integration,
@@ -35,6 +35,12 @@ void StepTangents::solve(double from, double to, Integration& integration,
   probe_->note(integration.state().data(), cut ? 0.0 : to - from);
   const bool by_stages = stages_.advance(from, to, integration, columns);
   if (by_stages && !stages_.crossed_switch()) return;
+  if (flow_->exact() && switches_->any()) {
+    Eigen::MatrixXd end = columns.x;
+    if (by_stages) columns.x = stages_.last().s0();
+    if (solve_across_jumps(from, to, integration, columns)) return;
+    columns.x = std::move(end);
+  }
   flow_->forget_obstacle();
   if (!by_stages) {
     collocate(from, to, integration, columns, columns.x);
@@ -43,13 +49,64 @@ void StepTangents::solve(double from, double to, Integration& integration,
   look_for_jump(from, to, integration, columns);
 }
 
+/// Where the flow jumps in the step, the columns are carried from jump to jump. False if it does not,
+/// and nothing has changed then.
+bool StepTangents::solve_across_jumps(double from, double to, Integration& integration,
+                                      TangentColumns& columns) {
+  const auto state = [&](double t) { return state_at(t, integration); };
+  const std::vector<FlowSwitches::Change> changes = switches_->changes(from, to, state);
+  const auto is_jump = [&](const auto& one) { return switches_->is_jump(one, state); };
+  if (std::ranges::none_of(changes, is_jump)) return false;
+  stages_.forget();
+  double since = from;
+  for (const FlowSwitches::Change& one : changes) {
+    if (!is_jump(one)) continue;
+    carry(since, one.before, integration, columns);
+    add(switches_->jump(one, state, columns), one.after, columns);
+    since = one.after;
+  }
+  carry(since, to, integration, columns);
+  gaps_->lose_not_finite(to, {});
+  if (changes.size() < thresholds::most_changes) return true;
+  for (Index k = 0; k < columns.size(); ++k)
+    if (columns.matters(k)) gaps_->lose(to, k, "", "the flow jumps too often in one step");
+  return true;
+}
+
+/// Carries the columns on by the linear equation, also over no time.
+void StepTangents::carry(double from, double to, Integration& integration,
+                         TangentColumns& columns) {
+  if (from < to)
+    collocate(from, to, integration, columns, columns.x);
+  else
+    variation_->keep({to, to, {columns.x}});
+}
+
+/// A jump goes through all columns that move it.
+void StepTangents::add(const FlowJump& jump, double t, TangentColumns& columns) {
+  for (Index k = 0; k < columns.size(); ++k) {
+    if (gaps_->lost(k) || jump.dtau[k] == 0.0) continue;
+    if (std::isnan(jump.dtau[k]))
+      gaps_->lose(t, k, "", jump.obstacle);
+    else
+      columns.x.col(k) += jump.by * jump.dtau[k];
+  }
+}
+
+/// The state within the last step, whose end is that of the solver.
+Eigen::VectorXd StepTangents::state_at(double t, Integration& integration) const {
+  Eigen::VectorXd x = integration.state();
+  if (t < to_) integration.interpolate(t, x.data());
+  return x;
+}
+
 /// Solves the linear equation along the step. `s` may be that of the columns.
 void StepTangents::collocate(double from, double to, Integration& integration,
                              const TangentColumns& columns, Eigen::MatrixXd& s) {
   Eigen::VectorXd x(machine_->plan().nx);
   const auto equation = [&](double t, Eigen::MatrixXd& a, Eigen::MatrixXd& b) {
     x = integration.state();
-    if (t < to) integration.interpolate(t, x.data());
+    if (t < to_) integration.interpolate(t, x.data());
     flow_->at(t, x.data(), columns, a, b);
   };
   const double joint = integration.joint(from);
@@ -74,18 +131,18 @@ void StepTangents::inside(double t, TangentColumns& at) {
   variation_->at(t, at.x);
 }
 
-/// f may jump where the state is, without an event: a branch that no guard announces. The jump would
-/// go through all columns, and the linear equation does not have it.
+/// f may jump without an event: a branch that no guard announces. A jump at a state would go through all
+/// columns, and one at a time through those that move it; the linear equation does not have it.
 void StepTangents::look_for_jump(double from, double to, Integration& integration,
                                  const TangentColumns& columns) {
-  const auto state = [&](double t) {
-    Eigen::VectorXd x = integration.state();
-    if (t < to) integration.interpolate(t, x.data());
-    return x;
-  };
-  if (!jumps_.within(from, to, state, columns)) return;
+  const auto state = [&](double t) { return state_at(t, integration); };
+  const bool everywhere = jumps_.within(from, to, state, columns);
+  std::vector<TimeJumps::Jump> jumps;
+  if (!everywhere && !flow_->exact()) jumps = called_jumps_.within(from, to, state);
   for (Index k = 0; k < columns.size(); ++k) {
-    if (columns.matters(k))
+    const auto moves = [&](const auto& one) { return called_jumps_.moves(one, columns, k); };
+    if (gaps_->lost(k) || !columns.matters(k)) continue;
+    if (everywhere || std::ranges::any_of(jumps, moves))
       gaps_->lose(
           to, k, "",
           "the flow jumps without an event; write the branch as a relation, or as modes with "

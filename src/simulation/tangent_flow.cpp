@@ -56,12 +56,13 @@ void TangentFlow::make() {
   functions_ = machine_->functions(), made_ = true;
   const Plan& plan = machine_->plan();
   FlowGraph flow = flow_graph(plan);
-  rates_.reset(), guards_.reset(), chain_.reset(), switches_.reset();
+  rates_.reset(), guards_.reset(), chain_.reset(), switches_.reset(), switched_.reset();
+  guard_switches_.clear();
   row_of_slot_.assign(static_cast<std::size_t>(plan.guard_slots), -1);
   if (!flow.obstacle.empty()) return chain(), void();
   std::vector<tape::Node> rows(flow.rates.begin(), flow.rates.end());
   reads_time_ = read_time(flow.graph, rows);
-  rates_ = partials(flow, plan, rows, false);
+  rates_ = partials(flow.graph, rows, false);
   const std::vector<tape::Node> switches = tape::switches_of(flow.graph, rows);
   if (!switches.empty()) switches_.emplace(flow.graph, switches);
   rows.clear();
@@ -70,12 +71,12 @@ void TangentFlow::make() {
     row_of_slot_[slot] = static_cast<Index>(rows.size());
     rows.push_back(*flow.guards[slot]);
   }
-  guards_ = partials(flow, plan, rows, true);
+  guards_ = partials(flow.graph, rows, true);
 }
 
-TangentFlow::Partials TangentFlow::partials(FlowGraph& flow, const Plan& plan,
-                                            const std::vector<tape::Node>& rows,
+TangentFlow::Partials TangentFlow::partials(tape::Graph& graph, const std::vector<tape::Node>& rows,
                                             bool by_time) const {
+  const Plan& plan = machine_->plan();
   std::vector<tape::Node> variables;
   std::vector<std::pair<Variable, Index>> names;
   const auto add_one = [&](Variable kind, Index i, tape::Node node) {
@@ -84,7 +85,6 @@ TangentFlow::Partials TangentFlow::partials(FlowGraph& flow, const Plan& plan,
   const auto add = [&](Variable kind, Index size, const auto& node_of) {
     for (Index i = 0; i < size; ++i) add_one(kind, i, node_of(i));
   };
-  tape::Graph& graph = flow.graph;
   add(Variable::x, plan.nx, [&](Index i) { return graph.continuous_state(i); });
   add(Variable::z, plan.nz, [&](Index i) { return graph.input(0, i); });
   add(Variable::y, plan.ny, [&](Index i) { return graph.discrete_state(i); });
@@ -144,15 +144,6 @@ bool TangentFlow::rests_at_switch(double t, const double* x, const Eigen::Vector
   return false;
 }
 
-void TangentFlow::sides_of_switches(double t, const double* x, std::vector<char>& sides) {
-  sides.clear();
-  if (!switches_) return;
-  switch_values_.resize(switches_->size());
-  variables_.at(t, x, [&](const At& at) { switches_->evaluate(at, switch_values_.data()); });
-  for (Index k = 0; k < switch_values_.size(); k += tape::numbers_of_switch)
-    sides.push_back(switch_values_[k] > switch_values_[k + 1] ? 1 : 0);
-}
-
 bool TangentFlow::bends(double t, const double* x, const TangentDirection& along) {
   const auto values_at = [&](double shift) -> Eigen::ArrayXd {
     Machine& probe = probe_->at(x, along, shift);
@@ -170,7 +161,7 @@ GuardTangent TangentFlow::guard(double t, const double* x, Index slot,
                                 const TangentColumns& columns) {
   if (functions_ != machine_->functions()) make();
   const Index row = nth(row_of_slot_, slot);
-  return row >= 0 ? exact_guard(t, x, row, columns) : called_guard(t, x, slot, columns);
+  return row >= 0 ? exact_row(*guards_, t, x, row, columns) : called_guard(t, x, slot, columns);
 }
 
 /// The derivative by the time, where it is not declared, is a difference of the guard and of all that
@@ -196,14 +187,14 @@ void TangentFlow::difference_by_time(double t, const double* x, Index slot, doub
   probe_->derivative(x, {.t = 1.0}, 1, read, &by_time);
 }
 
-GuardTangent TangentFlow::exact_guard(double t, const double* x, Index row,
-                                      const TangentColumns& columns) {
+GuardTangent TangentFlow::exact_row(Partials& all, double t, const double* x, Index row,
+                                    const TangentColumns& columns) {
   GuardTangent found{Eigen::VectorXd::Zero(machine_->plan().nx), 0.0,
                      Eigen::RowVectorXd::Zero(columns.size())};
-  evaluate(*guards_, t, x);
-  for (std::size_t e = 0; e < guards_->entries.size(); ++e) {
-    const auto [of, kind, index] = guards_->entries[e];
-    const double value = guards_->values[static_cast<Index>(e)];
+  evaluate(all, t, x);
+  for (std::size_t e = 0; e < all.entries.size(); ++e) {
+    const auto [of, kind, index] = all.entries[e];
+    const double value = all.values[static_cast<Index>(e)];
     if (of != row) continue;
     if (kind == Variable::x) {
       found.by_state[index] += value;

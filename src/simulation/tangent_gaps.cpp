@@ -8,6 +8,7 @@ namespace saltus {
 namespace {
 
 const char* const end_at_event = "the run ends at the time of the event, which moves";
+const char* const end_at_jump = "the run ends at a jump of the flow, which moves";
 
 }  // namespace
 
@@ -51,15 +52,28 @@ void TangentGaps::clear(const OneSided& one_sided, double t, const std::string& 
   }
 }
 
-void TangentGaps::end(const OneSided& one_sided, double t, Eigen::MatrixXd& x, Eigen::MatrixXd& z) {
+void TangentGaps::clear(const AtJump& jump, double t, const std::string& reason,
+                        Eigen::MatrixXd& x) {
+  for (Index k = 0; k < jump.cols(); ++k) {
+    if (!jump.col(k).any() || lost(k)) continue;
+    for (Index i = 0; i < x.rows(); ++i)
+      if (jump(i, k)) x(i, k) = none;
+    note(t, k, "", reason);
+  }
+}
+
+void TangentGaps::end(const OneSided& one_sided, const AtJump& jump, double t, Eigen::MatrixXd& x,
+                      Eigen::MatrixXd& z) {
   clear(one_sided, t, end_at_event, x, z);
+  clear(jump, t, end_at_jump, x);
   ends_at_instant_ = true;
 }
 
 void TangentGaps::forget_end() {
   if (!std::exchange(ends_at_instant_, false)) return;
-  std::erase_if(results_->sensitivities.gaps,
-                [](const SensitivityGap& gap) { return gap.reason == end_at_event; });
+  std::erase_if(results_->sensitivities.gaps, [](const SensitivityGap& gap) {
+    return gap.reason == end_at_event || gap.reason == end_at_jump;
+  });
 }
 
 }  // namespace saltus

@@ -24,6 +24,27 @@ bool moves_apart(double a, double b) {
   return std::abs(a - b) > same_time * std::max(std::abs(a), std::abs(b));
 }
 
+/// With the speed s and the curvature c against it, the function goes beyond zero by s^2 / (2 |c|). The
+/// error of its value follows from the tolerances of the states that it reads.
+bool grazes(const GuardTangent& of, double speed, const ZeroPlace& at,
+            const std::function<Eigen::VectorXd(double, const double*)>& flow,
+            const std::function<GuardTangent(double, const double*)>& tangent) {
+  const Eigen::VectorXd& f = at.flow;
+  const double terms = of.by_state.cwiseAbs().dot(f.cwiseAbs()) + std::abs(of.by_time);
+  if (!(std::abs(speed) > sum_rounding * terms)) return true;
+  double error = 0.0;
+  for (Index i = 0; i < f.size(); ++i)
+    error +=
+        std::abs(of.by_state[i]) * (at.options.atol[i] + at.options.rtol[i] * std::abs(at.x[i]));
+  const double ahead = std::sqrt(2.0 * error / terms / std::max(terms, 1.0));
+  if (!(ahead > 0.0) || !std::isfinite(ahead)) return false;
+  const Eigen::VectorXd later = VectorView(at.x, f.size()) + ahead * f;
+  const GuardTangent there = tangent(at.t + ahead, later.data());
+  const double curvature =
+      (there.by_state.dot(flow(at.t + ahead, later.data())) + there.by_time - speed) / ahead;
+  return curvature * speed < 0.0 && speed * speed <= 2.0 * std::abs(curvature) * error;
+}
+
 MovedTime TangentTimes::of(const Firing& firing, bool jumped, const TangentColumns& until,
                            double t) {
   const Guard& guard = (*guards_)[firing.guard()];
@@ -34,7 +55,7 @@ MovedTime TangentTimes::of(const Firing& firing, bool jumped, const TangentColum
   if (group.is_opaque())
     return {.event = group.name,
             .obstacle = "a called function decides it, which shows a sign only"};
-  if (jumped) return {.event = group.name, .obstacle = "the guard jumps across zero"};
+  if (jumped) return of_jump(firing.slot, group.name, t, until);
   return of_crossing(firing.slot, group.name, t, machine_->x.data(), until);
 }
 
@@ -59,7 +80,11 @@ MovedTime TangentTimes::of_crossing(Index slot, const std::string& event, double
   if (!guard.columns.allFinite() || !std::isfinite(speed))
     moved.doubt = "the derivative of the guard is not finite";
   const bool flat = guard.by_state.isZero(0.0) && guard.by_time == 0.0;
-  const bool at_rest = grazes(guard, speed, slot, t, x, until);
+  const auto flow = [&](double at, const double* state) { return probe_->flow(at, state); };
+  const auto tangent = [&](double at, const double* state) {
+    return flow_->guard(at, state, slot, until);
+  };
+  const bool at_rest = grazes(guard, speed, {t, x, probe_->flow(t, x), *options_}, flow, tangent);
   for (Index k = 0; k < until.size(); ++k) {
     // A guard that does not depend on the parameter has a time all the same.
     const bool independent = flat ? !until.matters(k) : guard.columns[k] == 0.0;
@@ -68,24 +93,62 @@ MovedTime TangentTimes::of_crossing(Index slot, const std::string& event, double
   return moved;
 }
 
-/// Whether a guard reaches zero so slowly that it would turn back within the error of its value. With
-/// the speed s and the curvature c against it, it goes beyond zero by s^2 / (2 |c|). The error of its
-/// value follows from the tolerances of the states that it reads.
-bool TangentTimes::grazes(const GuardTangent& guard, double speed, Index slot, double t,
-                          const double* x, const TangentColumns& until) {
-  const Eigen::VectorXd f = probe_->flow(t, x);
-  const double terms = guard.by_state.cwiseAbs().dot(f.cwiseAbs()) + std::abs(guard.by_time);
-  if (!(std::abs(speed) > sum_rounding * terms)) return true;
-  double error = 0.0;
-  for (Index i = 0; i < f.size(); ++i)
-    error += std::abs(guard.by_state[i]) * (options_->atol[i] + options_->rtol[i] * std::abs(x[i]));
-  const double ahead = std::sqrt(2.0 * error / terms / std::max(terms, 1.0));
-  if (!(ahead > 0.0) || !std::isfinite(ahead)) return false;
-  const Eigen::VectorXd later = VectorView(x, f.size()) + ahead * f;
-  const GuardTangent there = flow_->guard(t + ahead, later.data(), slot, until);
-  const double curvature =
-      (there.by_state.dot(probe_->flow(t + ahead, later.data())) + there.by_time - speed) / ahead;
-  return curvature * speed < 0.0 && speed * speed <= 2.0 * std::abs(curvature) * error;
+/// A guard that is an expression jumps where one of its comparisons or steps is at its limit, as a truth
+/// that is 1 or -1. Several of them have to move alike.
+MovedTime TangentTimes::of_jump(Index slot, const std::string& event, double t,
+                                const TangentColumns& until) {
+  MovedTime found{.event = event, .obstacle = "the guard jumps across zero"};
+  TangentFlow::GuardSwitches* switches = flow_->switches_of_guard(slot);
+  if (switches == nullptr) return found;
+  const double* x = machine_->x.data();
+  const Eigen::VectorXd flow = probe_->flow(t, x);
+  Eigen::VectorXd numbers(switches->numbers.size());
+  flow_->variables().at(t, x,
+                        [&](const At& at) { switches->numbers.evaluate(at, numbers.data()); });
+  for (Index k = 0; k < numbers.size() / tape::numbers_of_switch; ++k) {
+    const GuardTangent residual = flow_->exact_row(switches->residuals, t, x, k, until);
+    const double* of_switch = &numbers[k * tape::numbers_of_switch];
+    if (!is_at_limit(of_switch, residual, t, x)) continue;
+    const double speed = std::abs(residual.by_state.dot(flow) + residual.by_time);
+    if (!changes_sign(slot, t, flow, sum_rounding * of_switch[2] / speed)) continue;
+    const MovedTime one = of_residual(residual, event, flow, until);
+    const bool first = !found.obstacle.empty();
+    if (first) found = one;
+    for (Index i = 0; i < until.size() && !first; ++i)
+      if (std::isnan(one.by[i]) || moves_apart(found.by[i], one.by[i])) found.by[i] = no_derivative;
+  }
+  found.doubt = "the guard jumps across zero, and only grazes that place, or two of its jumps meet";
+  return found;
+}
+
+/// Whether a guard changes its sign by the time and the flow alone, and not by what else happens at t.
+bool TangentTimes::changes_sign(Index slot, double t, const Eigen::VectorXd& flow, double away) {
+  const double beside =
+      std::max(away, thresholds::roundings_beside_jump * thresholds::eps * std::abs(t));
+  if (!std::isfinite(beside)) return false;
+  Eigen::VectorXd g(machine_->plan().look_slots);
+  const auto guard_at = [&](double shift) {
+    const Eigen::VectorXd x = machine_->x + shift * flow;
+    Machine& probe = probe_->at(x.data());
+    probe.guards_at(t + shift, probe.x.data(), g.data());
+    return g[slot];
+  };
+  return (guard_at(-beside) > 0.0) != (guard_at(beside) > 0.0);
+}
+
+MovedTime TangentTimes::of_residual(const GuardTangent& residual, const std::string& event,
+                                    const Eigen::VectorXd& flow,
+                                    const TangentColumns& until) const {
+  const double speed = residual.by_state.dot(flow) + residual.by_time;
+  const double terms =
+      residual.by_state.cwiseAbs().dot(flow.cwiseAbs()) + std::abs(residual.by_time);
+  MovedTime moved{.by = until.t, .event = event};
+  for (Index k = 0; k < until.size(); ++k) {
+    if (residual.columns[k] == 0.0) continue;
+    const bool clear = std::abs(speed) > sum_rounding * terms && std::isfinite(speed);
+    moved.by[k] = clear ? until.t[k] - residual.columns[k] / speed : no_derivative;
+  }
+  return moved;
 }
 
 }  // namespace saltus

@@ -1,8 +1,14 @@
 // Tangents: across an instant.
-#include "saltus/simulation/detail/held_tangents.hpp"
 #include "saltus/simulation/detail/tangents.hpp"
 
 namespace saltus {
+
+namespace {
+
+const char* const jump_beside_event =
+    "the flow jumps at the time of the event, and their order would change";
+
+}  // namespace
 
 /// Opens an instant, whose time moves as its causes do.
 void Tangents::open(const Present& present, const std::vector<int>& due,
@@ -17,7 +23,9 @@ void Tangents::open(const Present& present, const std::vector<int>& due,
   probe_.note(x, 0.0);
   const Eigen::RowVectorXd until = columns_.t;
   const Eigen::VectorXd f = probe_.flow(t_, x);
+  const TangentColumns until_causes = columns_;
   take_causes(present, due, waiting, f);
+  lose_beside_jump(until_causes, time_.event(), jump_beside_event);
   columns_.x += f * (columns_.t - until);
   pass_.open(t_);
 }
@@ -48,8 +56,8 @@ void Tangents::commit() {
 
 void Tangents::evaluated() {
   if (machine_->y.size() == 0) return;
-  follow_signals(probe_, *machine_, t_, columns_);
-  gaps_.lose_not_finite(t_, probe_.obstacle());
+  held_.follow(t_, columns_);
+  gaps_.lose_not_finite(t_, held_.obstacle());
 }
 
 void Tangents::close() {
@@ -58,6 +66,7 @@ void Tangents::close() {
   if (machine_->carries())
     for (Index k = 0; k < size(); ++k)
       gaps_.lose(t_, k, "", "a block is carried by a moving surface");
+  lose_beside_jump(columns_, time_.event(), jump_beside_event);
   TangentColumns fixed = columns_;
   fix_time(probe_, t_, machine_->x.data(), fixed);
   one_sided_.judge(t_, *machine_, columns_, fixed, time_.event());

@@ -114,7 +114,16 @@ TEST_CASE("a state that jumps has no derivative at a time of the jump that moves
     CHECK(of.written() == std::vector<std::string>{"1 g: it jumps"});
   }
   SECTION("nor has the end of a run there, until the run goes on") {
-    of.gaps.end(one_sided, 1.0, row.x, row.z);
+    of.gaps.end(one_sided, {}, 1.0, row.x, row.z);
+    CHECK(of.written().size() == 1);
+    of.gaps.forget_end();
+    CHECK(of.written().empty());
+  }
+  SECTION("and neither has an end at a jump of the flow") {
+    saltus::AtJump jump = saltus::AtJump::Constant(row.x.rows(), row.x.cols(), false);
+    jump(1, 0) = true;
+    of.gaps.end(one_sided, jump, 2.0, row.x, row.z);
+    CHECK(row.x.array().isNaN().count() == 1);
     CHECK(of.written().size() == 1);
     of.gaps.forget_end();
     CHECK(of.written().empty());

@@ -24,4 +24,15 @@ struct FlowGraph {
 /// The expressions of a plan whose functions are formulas or traced.
 FlowGraph flow_graph(const Plan& plan);
 
+/// The signals that instants compute, as nodes of one graph with the variables of a FlowGraph. A truth,
+/// and a signal that is called, are variables.
+struct SignalGraph {
+  tape::Graph graph = {};
+  std::vector<tape::Node> values = {};
+  std::vector<Index> places = {};  ///< of the values, among all signals
+  bool whole = true;               ///< whether no signal is called
+};
+
+SignalGraph signal_graph(const Plan& plan);
+
 }  // namespace saltus

@@ -20,7 +20,7 @@ class FlowTerms final : public ColumnRate {
   void watch(bool continues);
   /// The step ends at the last point.
   void end_step() { at_end_ = now_, crossed_in_step_ = crossed_; }
-  /// Whether a switch of the flow has changed its side in that step.
+  /// Whether a switch of the flow has changed its branch in that step.
   bool crossed() const noexcept { return crossed_in_step_; }
 
   void go_to(double t, const double* x) override;
@@ -43,8 +43,8 @@ class FlowTerms final : public ColumnRate {
   std::vector<ByState> by_state_;
   std::vector<Fixed> fixed_;
   const double* values_ = nullptr;
-  // The sides of the switches at the first point of a step, at the present one, and at the end.
-  std::vector<char> sides_, now_, at_end_;
+  // The branches of the switches at the first point of a step, at the present one, and at the end.
+  std::vector<double> branches_, now_, at_end_;
   bool crossed_ = false, crossed_in_step_ = false;
 };
 

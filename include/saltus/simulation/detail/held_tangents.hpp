@@ -1,17 +1,48 @@
-// The derivatives of the held signals, at the start of a run and at an instant.
+// HeldTangents: the derivatives of the signals that are held between instants.
 #pragma once
 
+#include <optional>
+
 #include "saltus/model/context.hpp"
-#include "saltus/simulation/detail/tangent_probe.hpp"
+#include "saltus/plan/detail/flow_graph.hpp"
+#include "saltus/simulation/detail/tangent_flow.hpp"
 
 namespace saltus {
 
-/// A run begins: the constant outputs follow the parameters, at fixed states.
-void begin_signals(TangentProbe& probe, const Machine& machine, const Context& start,
-                   TangentColumns& columns);
+/// The signals of formulas have exact derivatives, by the chain rule. Where a function is called, or has
+/// a kink at the present values, they are differences along the columns.
+class HeldTangents {
+ public:
+  HeldTangents(const Machine& machine, TangentFlow& flow, TangentProbe& probe)
+      : machine_(&machine), flow_(&flow), probe_(&probe) {}
 
-/// The machine has evaluated its signals at t [s]. The held ones, and the moving ones that reset maps
-/// read, follow all that they read. Truths are held between instants, and their changes are events.
-void follow_signals(TangentProbe& probe, const Machine& machine, double t, TangentColumns& columns);
+  /// A run begins: those of the signals that a context computes, by its parameters.
+  void begin(const Context& start, TangentColumns& columns);
+  /// The machine has evaluated its signals at the present time t [s].
+  void follow(double t, TangentColumns& columns);
+  /// Why the last derivative has a NaN; empty if nothing says.
+  const std::string& obstacle() const noexcept { return obstacle_; }
+
+ private:
+  /// The exact derivatives, and where they have kinks.
+  struct Exact {
+    TangentFlow::Partials partials;
+    std::vector<Index> places;
+    std::optional<tape::Tape> switches;
+    bool whole;
+  };
+
+  void make();
+  bool has_kink_at(double t);
+  void differ(double t, TangentColumns& columns, Eigen::MatrixXd& y);
+  void add_exact(double t, const TangentColumns& columns, Eigen::MatrixXd& y);
+
+  const Machine* machine_;
+  TangentFlow* flow_;
+  TangentProbe* probe_;
+  std::optional<Exact> exact_;
+  int functions_ = -1;  // of which `exact_` is made
+  std::string obstacle_;
+};
 
 }  // namespace saltus

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "saltus/simulation/detail/flow_jumps.hpp"
+#include "saltus/simulation/detail/flow_switches.hpp"
 #include "saltus/simulation/detail/integration.hpp"
 #include "saltus/simulation/detail/stage_tangents.hpp"
 #include "saltus/simulation/detail/tangent_gaps.hpp"
+#include "saltus/simulation/detail/time_jumps.hpp"
 #include "saltus/simulation/detail/variation.hpp"
 
 namespace saltus {
@@ -16,12 +18,15 @@ namespace saltus {
 /// and good enough, else by collocation. The columns belong to the caller, who hands them over.
 class StepTangents {
  public:
-  StepTangents(const Machine& machine, TangentFlow& flow, TangentProbe& probe, TangentGaps& gaps)
+  StepTangents(const Machine& machine, TangentFlow& flow, TangentProbe& probe, TangentGaps& gaps,
+               FlowSwitches& switches)
       : machine_(&machine),
         flow_(&flow),
         probe_(&probe),
         gaps_(&gaps),
+        switches_(&switches),
         jumps_(flow, probe),
+        called_jumps_(probe),
         stages_(machine, flow) {}
 
   /// A run begins, with the tolerances of S and of the states.
@@ -48,6 +53,11 @@ class StepTangents {
 
  private:
   void solve(double from, double to, Integration& integration, TangentColumns& columns);
+  bool solve_across_jumps(double from, double to, Integration& integration,
+                          TangentColumns& columns);
+  void carry(double from, double to, Integration& integration, TangentColumns& columns);
+  void add(const FlowJump& jump, double t, TangentColumns& columns);
+  Eigen::VectorXd state_at(double t, Integration& integration) const;
   void collocate(double from, double to, Integration& integration, const TangentColumns& columns,
                  Eigen::MatrixXd& s);
   void need_inside(const TangentColumns& columns);
@@ -58,7 +68,9 @@ class StepTangents {
   TangentFlow* flow_;
   TangentProbe* probe_;
   TangentGaps* gaps_;
+  FlowSwitches* switches_;
   FlowJumps jumps_;
+  TimeJumps called_jumps_;
   StageTangents stages_;
   std::optional<Variation> variation_;
   double to_ = 0.0;  // [s] the end of the last step

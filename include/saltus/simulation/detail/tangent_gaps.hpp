@@ -11,6 +11,10 @@
 
 namespace saltus {
 
+/// The entries of the state, and the columns, that have one-sided derivatives at a jump of the flow. It
+/// is empty where there is no jump.
+using AtJump = OneSided::Mask;
+
 /// Sets columns to NaN and writes `Sensitivities::gaps`. All times are in s.
 class TangentGaps {
  public:
@@ -35,8 +39,12 @@ class TangentGaps {
   void clear(const OneSided& one_sided, double t, const std::string& reason, Eigen::MatrixXd& x,
              Eigen::MatrixXd& z);
 
+  /// The same at a jump of the flow.
+  void clear(const AtJump& jump, double t, const std::string& reason, Eigen::MatrixXd& x);
+
   /// As `clear`, for a run that ends at t.
-  void end(const OneSided& one_sided, double t, Eigen::MatrixXd& x, Eigen::MatrixXd& z);
+  void end(const OneSided& one_sided, const AtJump& jump, double t, Eigen::MatrixXd& x,
+           Eigen::MatrixXd& z);
   /// A run that goes on does not end there.
   void forget_end();
 

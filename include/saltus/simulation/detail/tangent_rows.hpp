@@ -22,11 +22,12 @@ class TangentRows {
   void renew() { begin(names_); }
 
   /// Adds a row at (t, x) with these derivatives at a fixed time.
-  void add(double t, const double* x, const TangentColumns& at, const OneSided& one_sided);
+  void add(double t, const double* x, const TangentColumns& at, const OneSided& one_sided,
+           const AtJump& jump);
   /// Takes the last row away.
   void drop();
   /// The run ends at t with these derivatives. Those that are one-sided at a regular end are no more.
-  void finish(double t, TangentColumns at, const OneSided& one_sided);
+  void finish(double t, TangentColumns at, const OneSided& one_sided, const AtJump& jump);
 
  private:
   const Machine* machine_;

@@ -1,6 +1,7 @@
 // TangentTimes: the derivatives of the times at which events happen.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "saltus/simulation/detail/tangent_flow.hpp"
@@ -20,6 +21,21 @@ struct MovedTime {
 /// functions have errors of 1e-10 (see TangentProbe), which a slow crossing amplifies. NaN: no.
 bool moves_apart(double a, double b);
 
+/// Where a function of the time and the state reaches zero, with the flow there.
+struct ZeroPlace {
+  double t;         ///< [s]
+  const double* x;  ///< the state
+  const Eigen::VectorXd& flow;
+  const SimulatorOptions& options;
+};
+
+/// Whether a function with these derivatives reaches zero so slowly that it would turn back within the
+/// error of its value, or does not move there. `flow` and `tangent` give the flow and the derivatives
+/// of the function at a time and a state.
+bool grazes(const GuardTangent& of, double speed, const ZeroPlace& at,
+            const std::function<Eigen::VectorXd(double, const double*)>& flow,
+            const std::function<GuardTangent(double, const double*)>& tangent);
+
 /// With the derivatives S of the state, a guard g and the flow f before the event, the time tau of a
 /// crossing moves by dtau = -(g_x S + g_p) / (g_x f + g_t). The columns may belong to a moving time
 /// already; dtau is then added to its movement.
@@ -38,8 +54,10 @@ class TangentTimes {
                         const TangentColumns& until);
 
  private:
-  bool grazes(const GuardTangent& guard, double speed, Index slot, double t, const double* x,
-              const TangentColumns& until);
+  MovedTime of_jump(Index slot, const std::string& event, double t, const TangentColumns& until);
+  bool changes_sign(Index slot, double t, const Eigen::VectorXd& flow, double away);
+  MovedTime of_residual(const GuardTangent& residual, const std::string& event,
+                        const Eigen::VectorXd& flow, const TangentColumns& until) const;
 
   const Machine* machine_;
   const GuardSet* guards_;

@@ -7,6 +7,7 @@
 
 #include "saltus/simulation/detail/dense_tangents.hpp"
 #include "saltus/simulation/detail/guards_at_zero.hpp"
+#include "saltus/simulation/detail/held_tangents.hpp"
 #include "saltus/simulation/detail/instant_time.hpp"
 #include "saltus/simulation/detail/pass_tangents.hpp"
 #include "saltus/simulation/detail/resting_kinks.hpp"
@@ -93,6 +94,10 @@ class Tangents {
   void take_causes(const Present& present, const std::vector<int>& due,
                    const std::vector<DueNow>& waiting, const Eigen::VectorXd& flow);
 
+  AtJump at_jump(double t, const double* x, const TangentColumns& at);
+  void lose_beside_jump(const TangentColumns& before, const std::string& event,
+                        const std::string& reason);
+
   const Machine* machine_;
   const GuardSet* guards_;
   TangentStart start_;
@@ -101,8 +106,10 @@ class Tangents {
   TangentTimes times_;
   TangentColumns columns_;  // of the state between instants, then of the instant
   TangentGaps gaps_;
+  FlowSwitches switches_;
   StepTangents steps_;
   InstantTime time_;
+  HeldTangents held_;
   PassTangents pass_;
   WaitingTangents waiting_;
   GuardsAtZero at_zero_;

@@ -201,6 +201,28 @@ inline constexpr double free_stage_error = 0.01;
 /// [eps] The rounding of an entry of S that its estimate may have.
 inline constexpr double stage_rounding = 1e3;
 
+// --- jumps of the flow without an event: flow_switches.cpp (tests/laws/moved_jumps_test.cpp)
+
+/// [of a step] Where the branches of a flow are looked at. They change one by one, because a jump makes
+/// the steps around it short; the points beside the middle are those of the stages of dopri5.
+inline constexpr double looks_at_branches[] = {0.05, 0.11, 0.2, 0.3,       0.42, 0.5,
+                                               0.58, 0.69, 0.8, 8.0 / 9.0, 0.95, 1.0};
+/// More changes in one step are not followed.
+inline constexpr std::size_t most_changes = 1000;
+/// [of the largest rate so far] A smaller jump of the flow is a rounding, or a kink between two times.
+inline constexpr double least_jump = 1e-10;
+/// A jump within so many roundings of a time is at that time.
+inline constexpr double roundings_beside_jump = 16.0;
+
+// --- jumps of called functions: time_jumps.cpp (tests/laws/moved_jumps_test.cpp)
+
+/// [of the largest rate so far] A smaller fourth difference of the flow is smooth, or a rounding.
+inline constexpr double least_bend = 1e-4;
+inline constexpr std::size_t most_called_jumps = 20;  ///< in one step
+/// [of the size of a value] The shift after which a jump that moves is elsewhere. It is far above the
+/// rounding of a time, and far below the distance of two jumps.
+inline constexpr double shift_of_jump = 1e-6;
+
 // --- crawling along a jump of a derivative: crawl.cpp (tests/laws/crawl_test.cpp)
 
 /// [steps] of the first window. A jump that is passed costs some forty steps.
