@@ -165,7 +165,7 @@ TEST_CASE("after a release earlier firings have no meaning", "[holds]") {
 
 TEST_CASE("a continued run rests where the earlier one did, and remembers its gaps", "[holds]") {
   Bounces earlier({});
-  earlier.after({8e-7, 4e-7});
+  earlier.after({1e-3, 8e-7, 4e-7});
   Bounces later({});
   later.machine.x = earlier.machine.x;
   const Continuation between = earlier.instant.save();

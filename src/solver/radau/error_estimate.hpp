@@ -24,6 +24,9 @@ class ErrorEstimate {
 
   /// Another step begins, or the same one with other stages: no try of it is known.
   void forget_tries() { tried_ = 0.0; }
+  /// A step was accepted: the next one is compared with it. A jump is not compared with.
+  void accept(double h, int stages) { accepted_ = {size_, h, stages}; }
+  void forget_steps() { accepted_ = {}; }
 
   /// Root mean square of the estimate, in allowed errors: infinite if it is not finite. `x1` is
   /// the end of the step.
@@ -38,7 +41,11 @@ class ErrorEstimate {
     for (Index i = 0; i < estimate_.size(); ++i)
       tolerance_[i] = options_.tolerance(i, std::max(std::abs((*step.x)[i]), std::abs(x1[i])));
     size_ = mean(estimate_);
-    const double error = in_allowed(allowed(scheme, x1), step.h, scheme.stages);
+    const bool sudden =
+        tried_ == 0.0 && accepted_.stages == scheme.stages &&
+        is_sudden(size_, accepted_.size, step.h / accepted_.h, scheme.estimate_order());
+    const double error = sudden ? size_ / allowed(scheme, x1).of(0.0)
+                                : in_allowed(allowed(scheme, x1), step.h, scheme.stages);
     tried_ = step.h;
     return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
   }
@@ -85,6 +92,10 @@ class ErrorEstimate {
   std::array<std::optional<AllowedEstimate>, stage_counts.size()> allowed_;
   Eigen::VectorXd estimate_, plain_, before_, tolerance_;
   double tried_ = 0.0;  // [s] length of the try before; 0: none
+  struct {
+    double size = 0.0, h = 1.0;  // [tolerances], [s]
+    int stages = 0;              // 0: none
+  } accepted_;                   // the last step
   double size_ = 0.0;
 };
 

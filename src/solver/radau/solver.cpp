@@ -54,6 +54,7 @@ void RadauSolver::undo() {
 }
 
 void RadauSolver::forget_steps() {
+  error_.forget_steps();
   choice_.forget_trend(), stages_.jump();
   smooth_ = false;
 }
@@ -113,6 +114,7 @@ void RadauSolver::finish_stages(double h) {
 
 void RadauSolver::accept(double error, double h, double wish, bool rejected) {
   ++statistics_.steps;
+  error_.accept(h, step_.stages);
   const bool kept = stages_.keep(h);
   const double ratio = smooth_ ? h / last_length_ : 0.0;
   const double next = choice_.accept({h, error, ratio, rejected, kept}, stages_.convergence());

@@ -66,6 +66,13 @@ inline double shown_order(double before, double now, double ratio, double order)
   return std::clamp(2.0 * shown / order - 1.0, 0.0, 1.0);
 }
 
+/// Whether the first estimate of a step is much larger than that of the step before says, in
+/// tolerances; `ratio` is the length of the step in that of the one before.
+inline bool is_sudden(double now, double before, double ratio, double order) {
+  const double expected = std::max(before * std::pow(ratio, order), tuning::least_estimate);
+  return now > tuning::sudden * expected;
+}
+
 /// The part of a fast estimate that the step has inherited: the distance of the state at its begin
 /// from the slow solution, which the step damps, and which no shorter step has less of. Two tries
 /// of one step tell it apart: their estimates are a + b and a + `shrunk` b with a the inherited
