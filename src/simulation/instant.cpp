@@ -54,7 +54,8 @@ Outcome Instant::run(double t, const std::vector<int>& due, double longest, bool
     if (armed && !std::exchange(present.contact_changed, false)) break;
     parts_.journal.at_jump(parts_.jump);
     parts_.sides.arm(at_start);
-    if (std::exchange(present.placed, false)) rows_.again(parts_.jump);
+    if (std::exchange(present.placed, false))
+      rows_.again(parts_.jump), parts_.journal.renew_after();
     armed = true;
     if (present.firings.empty() && present.actions.empty()) break;
   }

@@ -2,6 +2,7 @@
 #include "saltus/simulation/detail/journal.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 namespace saltus {
 
@@ -85,6 +86,14 @@ const std::string& Journal::name_of(int source) const {
   return plan_->scheduled(source - groups - edges).name;
 }
 
+int Journal::leaf_of(int source) const {
+  const auto groups = static_cast<int>(plan_->guards.size()),
+             edges = static_cast<int>(plan_->edges.size());
+  if (source < groups) return plan_->guard(source).leaf;
+  if (source < groups + edges) return plan_->edge(source - groups).leaf;
+  return plan_->scheduled(source - groups - edges).leaf;
+}
+
 void Journal::note(const Entry& entry) {
   ++results_->statistics.events, ++events_;
   last_source_ = entry.source;
@@ -93,6 +102,26 @@ void Journal::note(const Entry& entry) {
     counted_.push_back(entry.source);
   }
   add(entry, t_, jump_, machine_->x.data(), transition_->next().data());
+}
+
+void Journal::renew_after() {
+  struct Logged {
+    EventLog::Row row;
+    std::vector<double> before;
+    std::vector<Index> rests;
+  };
+  EventLog& events = results_->events;
+  std::vector<Logged> logged;
+  std::size_t n = events.size();
+  for (; n > 0 && events.row(n - 1).time == t_ && events.row(n - 1).jump == jump_; --n) {
+    const Event event = events[n - 1];
+    logged.push_back({events.row(n - 1),
+                      {event.before.begin(), event.before.end()},
+                      {event.rests.begin(), event.rests.end()}});
+  }
+  events.shorten(n);
+  for (const auto& [row, before, rests] : std::views::reverse(logged))
+    events.add(row, before.data(), machine_->x.data() + plan_->leaf(leaf_of(row.source)).x, rests);
 }
 
 void Journal::note_monitor(const MonitorHit& hit, const Guard& guard, int jump, const double* x) {

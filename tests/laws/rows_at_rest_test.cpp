@@ -48,4 +48,5 @@ TEST_CASE("5.1 the last row where a ball comes to rest has no velocity", "[laws]
   const auto& state = results.signals[0].values;
   CHECK(state[2 * row] == results.context.continuous_state()[0]);
   CHECK(state[2 * row + 1] == results.context.continuous_state()[1]);
+  CHECK(results.events[event].after[1] == state[2 * row + 1]);
 }

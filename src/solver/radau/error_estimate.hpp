@@ -73,13 +73,14 @@ class ErrorEstimate {
     for (Index i = 0; i < estimate_.size(); ++i) {
       const double plain = std::abs(plain_[i]), left = std::abs(estimate_[i]);
       const double share = left < plain ? left / plain : 1.0;
-      double own = estimate_[i], smooth = 1.0;
+      double own = estimate_[i], slow = share;
       if (again) {
-        smooth = shown_order(before_[i], estimate_[i], ratio, stages + 1.0);
+        // The estimate of a fast part hardly shrinks anyway, so it shows nothing.
+        slow *= 1.0 - share * (1.0 - shown_order(before_[i], estimate_[i], ratio, stages + 1.0));
         const double bound = thresholds::dense_room * tolerance_[i];
         own -= (1.0 - share) * inherited_estimate(before_[i], estimate_[i], shrunk, bound);
       }
-      plain_[i] = own / allowed.of(share * smooth);
+      plain_[i] = own / allowed.of(slow);
     }
     return mean(plain_);
   }

@@ -38,6 +38,8 @@ class Journal {
   int source_of(Cause cause, int index) const;
   /// "block.event"
   const std::string& name_of(int source) const;
+  /// The number of the block that declares it.
+  int leaf_of(int source) const;
 
   struct Entry {
     EventKind kind;
@@ -49,6 +51,9 @@ class Journal {
     std::span<const Index> rests = {};  ///< entries of x that rest from a zeno_enter on
   };
   void note(const Entry& entry);
+  /// The state has changed since the last pass, without an event of its own: a block was put at rest on
+  /// its surface. It is the state after the events of that pass.
+  void renew_after();
   /// The crossing of a monitor, which changes nothing, at the state x.
   void note_monitor(const MonitorHit& hit, const Guard& guard, int jump, const double* x);
   /// A link of the chain of causes.

@@ -13,7 +13,7 @@ inline constexpr double fast_error = 2.0;
 /// [1] A first estimate of a step that is so many times as large as the step before says may come from a
 /// jump of the derivative. A smaller one than `least_estimate` [tolerances] may be rounding.
 /// tests/laws/radau_jumps_test.cpp
-inline constexpr double sudden = 100.0, least_estimate = 1e-3;
+inline constexpr double sudden = 1000.0, least_estimate = 1e-3;
 /// [1] From this part of its length on, a second try of a step shows too little of what its error
 /// depends on: the estimate shrinks by a factor of 0.86 at most then, for three stages.
 /// tests/laws/prothero_robinson_test.cpp (as small)
