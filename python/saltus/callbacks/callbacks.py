@@ -97,7 +97,7 @@ class Callbacks:
         return shared or bool(changed)
 
     def _share(self, blocks: Iterable[int]) -> None:
-        """Names to the engine the functions of some blocks that share values outside of the system."""
+        """Gives the engine the functions of these blocks that share values."""
         for number in blocks:
             self.traces.share(number, *self._found.sharing.get(number, ([], [])))
         self.version += 1

@@ -15,6 +15,7 @@ from saltus.fitting.problem import Point, Problem
 from saltus.fitting.progress import FitProgress, Shown
 from saltus.fitting.result import FitResult, Start
 from saltus.fitting.trial import Stopped
+from saltus.fitting.uncertainty import slopes_of
 
 __all__ = ["Ended", "Optimizer"]
 
@@ -112,7 +113,7 @@ class Optimizer:
 
         def slopes(w: np.ndarray) -> np.ndarray:
             jacobian = problem.jacobian(back(w))
-            if not (jacobian.T @ problem.residuals(back(w))).any():
+            if self._is_flat(jacobian, problem.residuals(back(w))):
                 raise _Flat(w.copy())
             scaled: np.ndarray = jacobian * scale
             return scaled
@@ -132,6 +133,12 @@ class Optimizer:
             raise ModelError(f"fit: {error}") from error
         return found, back(found.x)
 
+    def _is_flat(self, jacobian: np.ndarray, residuals: np.ndarray) -> bool:
+        """Whether the gradient of the cost, with its loss, is exactly zero."""
+        z = (residuals / self.settings["f_scale"]) ** 2
+        weights = slopes_of(self.settings["loss"], z)[0]
+        return not (jacobian.T @ (weights * residuals)).any()
+
     def _status(self, found: Any, point: Point) -> tuple[str, str]:
         """How `least_squares` ended, and why."""
         if not point.jacobian.any():
@@ -139,7 +146,7 @@ class Optimizer:
                 "no residual depends on a parameter there, so no step lowers the cost: the "
                 "warnings say what is missing; give other start values, or other data"
             )
-        if not (point.jacobian.T @ point.residuals).any():
+        if self._is_flat(point.jacobian, point.residuals):
             return "converged", "the gradient of the cost is zero"
         if found.status == 0:
             return "max_nfev", f"{found.nfev} evaluations were not enough; give max_nfev, or starts"

@@ -107,10 +107,11 @@ def _name_of(name: Any) -> str:
     return name
 
 
-def _positional(function: Any) -> list[str]:
+def _positional(function: Any, *, follow_wrapped: bool = True) -> list[str]:
     """The names of a function's arguments that have a place."""
     try:
-        arguments = inspect.signature(function).parameters.values()
+        found = inspect.signature(function, follow_wrapped=follow_wrapped)
+        arguments = found.parameters.values()
     except (TypeError, ValueError):  # no function, or one of unknown signature
         return []
     return [each.name for each in arguments if each.kind in PLACED]
@@ -121,10 +122,8 @@ def require_time_first(functions: Sequence[Any]) -> None:
     it would get the time as its state.
     """
     for function in functions:
-        code = getattr(function, "__code__", None)
-        first: tuple[str, ...] = (
-            () if code is None else code.co_varnames[: min(code.co_argcount, 2)]
-        )
+        # a wrapper of f(x, t) may exchange the arguments: only its own names count
+        first = _positional(function, follow_wrapped=False)[:2]
         if len(first) == 2 and first[1] in ("t", "time") and first[0] in ("x", "y", "u", "state"):
             name = getattr(function, "__name__", "f")
             raise ModelError(

@@ -197,7 +197,7 @@ def jump(graph: Any, outputs: list[int]) -> Any:
 
 
 def as_guard(outcome: Traced | Refused) -> Traced | Refused:
-    """The function as a guard: a truth becomes its residual, also where 0 and 1 stand for it.
+    """The function as a guard: a truth becomes its residual, also where it is written as 0 and 1.
 
     A truth that has no residual jumps: its function is called, and its value is 1 or -1.
     """

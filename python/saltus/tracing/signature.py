@@ -121,7 +121,7 @@ class Traced:
     compared: int = 0
     """the number of points at which tape and function were compared"""
     numbers_are_truths: bool = False
-    """whether the numbers 0 and 1 of the result stand for truths"""
+    """whether the result has the numbers 0 and 1 in place of truths"""
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,7 @@
 """Arguments and functions in the forms that SciPy takes."""
 
+import functools
+
 import numpy as np
 import pytest
 import saltus
@@ -101,3 +103,31 @@ def test_no_state_and_no_length():
     still = solve(lambda t, x: -x, (4, 4), [2.0, 3.0], dense_output=True)
     assert still.sol(4).tolist() == [2.0, 3.0]
     assert still.sol([4, 5, 6]).tolist() == [[2.0] * 3, [3.0] * 3]
+
+
+class Decay:
+    def rate(self, x, t):
+        return -x
+
+    def __call__(self, x, t):
+        return -x
+
+
+@pytest.mark.parametrize("f", [lambda x, t: -x, Decay().rate, Decay()])
+def test_the_order_of_odeint_is_refused(f):
+    with pytest.raises(saltus.ModelError, match="expected the time first"):
+        solve(f, (0.0, 1.0), [1.0])
+
+
+def test_a_wrapper_that_exchanges_the_arguments_is_taken():
+    def decay(x, t):
+        return -x
+
+    @functools.wraps(decay)
+    def exchanged(t, x):
+        return decay(x, t)
+
+    # 1e-6: a hundred times rtol, for the growth of the error over the steps
+    assert solve(exchanged, (0.0, 1.0), [1.0], rtol=1e-8, atol=1e-10).y[0, -1] == pytest.approx(
+        np.exp(-1.0), rel=1e-6
+    )
