@@ -135,12 +135,13 @@ class Closing:
         """Begins anew at the end of the arc, with its modes and labels."""
         self.base, self.values = arc.final, arc.end.copy()
 
-    def take_labels(self, arc: Arc) -> None:
-        """Finds the labels among the discrete states."""
+    def take_labels(self, arc: Arc, untouched: bool = True) -> None:
+        """Finds the labels among the discrete states, with or without those that nothing writes."""
         whole = (arc.start % 1.0 == 0.0) & (arc.end % 1.0 == 0.0)
         whole[: len(self.states.continuous)] = False
         self.labels = whole & ~np.any(arc.by_start[:, ~whole] != 0.0, axis=1)
-        self.labels |= self._untouched(arc)
+        if untouched:
+            self.labels |= self._untouched(arc)
 
     def _untouched(self, arc: Arc) -> np.ndarray:
         """(n,) the discrete states that keep their value, and on which nothing else depends."""

@@ -101,7 +101,7 @@ def period_map(
     closing = FixedPeriod(runs, start, float(period))
     arc = first_arc(closing, names)
     _require_return(closing, arc)
-    closing.take_labels(arc)
+    closing.take_labels(arc, untouched=outputs is None)  # an output may read such a state
     _require_same(closing, arc)
     return _made(closing, arc, outputs)
 

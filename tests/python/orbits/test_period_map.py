@@ -150,3 +150,20 @@ def test_a_mode_that_does_not_return():
 def test_without_an_input_there_is_no_state_space():
     with pytest.raises(saltus.ModelError, match="to_scipy: the map has no input"):
         saltus.period_map(Sampled(), T).to_scipy()
+
+
+def test_an_output_may_read_a_state_that_nothing_writes():
+    """x' = -x and z = 2.5, which stays: y = z x has dy/dx = z = 2.5 and dy/dz = x = 1 at the start."""
+
+    class System(saltus.LeafSystem):
+        def __init__(self):
+            super().__init__(name="system")
+            self.declare_continuous_state([1.0], ode=lambda t, s: -s.continuous_state)
+            self.declare_discrete_state([2.5])
+            self.declare_output_port(
+                lambda t, s: s.continuous_state * s.discrete_state, name="y", shape=1
+            )
+
+    found = saltus.period_map(System(), 1.0, outputs=["y"])
+    columns = dict(zip(found.states, np.ravel(found.C), strict=True))
+    assert columns == pytest.approx({"x[0]": 2.5, "z[0]": 1.0}, rel=1e-12)
