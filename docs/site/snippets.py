@@ -80,7 +80,8 @@ def prints(fence, printed):
     said = "\n".join(fence.output).strip()
     pattern = re.escape(said).replace(re.escape("..."), ".*")
     if fence.about:
-        pattern = NUMBER.sub(r"(\\d+(?:\\.\\d+)?)", pattern)
+        # A whole number: what was printed before it must not take its first digits.
+        pattern = NUMBER.sub(r"(?<![\\d.])(\\d+(?:\\.\\d+)?)", pattern)
     beginning = ".*" if "continue" in fence.flags else ""
     match = re.fullmatch(beginning + pattern, printed.strip(), re.S)
     if match is None or not fence.about:
