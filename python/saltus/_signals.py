@@ -15,6 +15,7 @@ from saltus.system import System
 __all__ = [
     "block_of",
     "blocks_in",
+    "is_diagram",
     "named",
     "port_of",
     "quantities_of",

@@ -29,7 +29,7 @@ Leaf ball(double drag, double e) {
 
 using namespace rows_at_rest_test;
 
-TEST_CASE("5.1 the last row where a ball comes to rest has no velocity", "[laws]") {
+TEST_CASE("the last row where a ball comes to rest has no velocity", "[laws]") {
   const auto method = GENERATE(from_range(methods));
   const double e = GENERATE(0.5, 0.8, 0.93), drag = GENERATE(0.0, 0.1, 0.7);
   INFO("method " << method << ", e " << e << ", drag " << drag);

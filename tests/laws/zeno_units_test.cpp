@@ -39,7 +39,7 @@ double height(double time) {
 
 using namespace zeno_units_test;
 
-TEST_CASE("4.2 a ball in any unit of time flies as long as in seconds", "[laws]") {
+TEST_CASE("a ball in any unit of time flies as long as in seconds", "[laws]") {
   const double fall = GENERATE(1e-12, 1e-9, 1e-7, 1e-6, 1e-4, 1e-2, 1.0, 1e3);
   const auto method = GENERATE(Method::dopri5, Method::dop853, Method::radau);
   INFO("first fall " << fall << " s, method " << method);
@@ -68,7 +68,7 @@ TEST_CASE("4.2 a ball in any unit of time flies as long as in seconds", "[laws]"
   CHECK(results.context.continuous_state()[0] == 0.0);
 }
 
-TEST_CASE("4.2 a tolerance that the user gives counts alone", "[laws]") {
+TEST_CASE("a Zeno tolerance that the user gives counts alone", "[laws]") {
   const Leaf leaf = ball(1e-7);
   const auto results = simulate(leaf, leaf.create_context(), {0.0, 5e-7}, {.zeno_tolerance = 2e-6});
   CHECK(count(results.events, EventKind::zeno_enter) == 1);

@@ -21,6 +21,7 @@ LATE = {
     ): "loads parsers, which a scene of the shelf leaves alone",
     ("saltus.callbacks.callbacks", "saltus.tracing"): "a system without callbacks needs no tracer",
     ("saltus.callbacks.function", "saltus.tracing"): "a system without callbacks needs no tracer",
+    ("saltus.callbacks.search", "saltus.tracing"): "a system without callbacks needs no tracer",
     ("saltus.cli.scene_of", "saltus.sbml"): "loads libsbml, which other scenes leave alone",
     ("saltus.differentiable.jax_function", "saltus.differentiable.jax_run"): "loads JAX",
     ("saltus.differentiable.torch_function", "saltus.differentiable.torch_run"): "loads PyTorch",

@@ -9,7 +9,7 @@ import numpy as np
 
 from saltus.errors import ModelError
 
-__all__ = ["Uncertainty", "require_loss", "uncertainty"]
+__all__ = ["Uncertainty", "require_loss", "slopes_of", "uncertainty"]
 
 Slopes = tuple[np.ndarray, np.ndarray]
 LOSSES: dict[str, Callable[[np.ndarray], Slopes]] = {
