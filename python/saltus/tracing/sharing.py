@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from saltus.tracing.effects import Looks, Reads, Writes, reads_of, writes_of
+from saltus.tracing.effects import Looks, reads_of, writes_of
 from saltus.tracing.known import Known
 from saltus.tracing.roots import roots_of
 from saltus.tracing.signature import Refused, Traced
@@ -36,10 +36,20 @@ def sharing_of(
     traced nor is known may read or write what its code and the objects that it can reach show.
     `looks` gets everything at which the search has looked.
     """
-    writers = dict(_writers(blocks, outcomes, called, looks))
+    looks = [] if looks is None else looks
+    found = {
+        place: writes_of(roots_of(blocks[place[0]], place[1]))
+        for place in _called(blocks, outcomes, called, WRITERS)
+    }
+    looks.extend(writes.looks for writes in found.values())
+    writers = {place: writes for place, writes in found.items() if writes.any}
     if not writers:
         return {}
-    readers = dict(_readers(blocks, outcomes, called, looks))
+    readers = {
+        place: reads_of(roots_of(blocks[place[0]], place[1]))
+        for place in _called(blocks, outcomes, called, READERS)
+    }
+    looks.extend(reads.looks for reads in readers.values())
     pairs = [(r, w) for r in readers for w in writers if readers[r].may_see(writers[w])]
     shared: Sharing = {}
     for reader, writer in pairs:
@@ -63,24 +73,3 @@ def _called(
                 continue
             if not isinstance(outcome, Traced) or (b, i) in called:
                 yield b, i
-
-
-def _writers(
-    blocks: Any, outcomes: Any, called: Any, looks: list[Looks] | None
-) -> Iterator[tuple[Place, Writes]]:
-    for b, i in _called(blocks, outcomes, called, WRITERS):
-        writes = writes_of(roots_of(blocks[b], i))
-        if looks is not None:
-            looks.append(writes.looks)
-        if writes.unknown or writes.binds or writes.cells or writes.touched:
-            yield (b, i), writes
-
-
-def _readers(
-    blocks: Any, outcomes: Any, called: Any, looks: list[Looks] | None
-) -> Iterator[tuple[Place, Reads]]:
-    for b, i in _called(blocks, outcomes, called, READERS):
-        reads = reads_of(roots_of(blocks[b], i))
-        if looks is not None:
-            looks.append(reads.looks)
-        yield (b, i), reads

@@ -30,7 +30,7 @@ class Reads:
     def may_see(self, writes: Writes) -> bool:
         """Whether it may read something that another callback writes."""
         if self.unknown or writes.unknown:
-            return bool(writes.unknown or writes.binds or writes.cells or writes.touched)
+            return writes.any
         return not (
             self.names.isdisjoint(writes.binds)
             and self.cells.isdisjoint(writes.cells)

@@ -28,6 +28,11 @@ class Writes:
     looks: Looks
     """objects at which the search has looked"""
 
+    @property
+    def any(self) -> bool:
+        """Whether it may write anything."""
+        return bool(self.unknown or self.binds or self.cells or self.touched)
+
 
 def writes_of(roots: Iterable[Any]) -> Writes:
     """The objects that the functions and objects in `roots` may write when they are called."""
